@@ -1,0 +1,1 @@
+# find_package(etalon CONFIG) for outside projects; proved by tests/install.
