@@ -1,0 +1,79 @@
+#include "gpu/context.h"
+
+#include <cstdlib>
+#include <mutex>
+#include <optional>
+
+#include <fmt/core.h>
+
+#include "core/base/error.h"
+#include "gpu/osmesa_context.h"
+
+namespace etalon::gpu {
+
+namespace {
+
+/// Mesa's process-wide choices, made by the first context.
+class DriverChoice {
+ public:
+  void make(const ContextOptions& options) {
+    const std::lock_guard lock(mutex_);
+    if (chosen_) {
+      if (options.driver == Driver::device_default || options.driver == *chosen_) return;
+      throw UnavailableError(fmt::format("OpenGL: Mesa's driver is chosen once per process and is {} already; {} needs a process of its own",
+                                         to_string(*chosen_), to_string(options.driver)));
+    }
+    if (options.driver != Driver::device_default) setenv("GALLIUM_DRIVER", to_string(options.driver).c_str(), 1);
+    if (options.threads >= 0) setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+  }
+
+  void keep(const Context& context) {
+    const std::lock_guard lock(mutex_);
+    if (chosen_) return;
+    const std::string renderer = reinterpret_cast<const char*>(context.gl().get_string(gl::kRenderer));
+    chosen_ = Driver::device_default;  // another driver, a GPU's: neither of Mesa's two can be had any more
+    if (renderer.rfind("llvmpipe", 0) == 0) chosen_ = Driver::llvmpipe;
+    if (renderer.rfind("softpipe", 0) == 0) chosen_ = Driver::softpipe;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::optional<Driver> chosen_;  ///< set once a context has been made
+};
+
+DriverChoice& driver_choice() {
+  static DriverChoice choice;
+  return choice;
+}
+
+}  // namespace
+
+void Context::load(const std::function<gl::ProcAddress(const char*)>& get_proc_address) {
+  gl_ = gl::load_api(get_proc_address);
+  gl::Int major = 0;
+  gl::Int minor = 0;
+  gl_.get_integerv(gl::kMajorVersion, &major);
+  gl_.get_integerv(gl::kMinorVersion, &minor);
+  if (major < 3 || (major == 3 && minor < 3)) {
+    throw UnavailableError(fmt::format("OpenGL: {} gives version {}.{}, etalon needs 3.3 core", origin(), major, minor));
+  }
+}
+
+std::unique_ptr<Context> make_context(const ContextOptions& options) {
+  driver_choice().make(options);
+  std::unique_ptr<Context> context = make_osmesa_context(options.library_path);
+  driver_choice().keep(*context);
+  return context;
+}
+
+std::string to_string(Driver driver) {
+  switch (driver) {
+    case Driver::device_default: return "default";
+    case Driver::llvmpipe: return "llvmpipe";
+    case Driver::softpipe: return "softpipe";
+  }
+  return "?";
+}
+
+}  // namespace etalon::gpu

@@ -1,0 +1,41 @@
+#include "gpu/gl_format.h"
+
+#include <array>
+
+#include "core/base/error.h"
+
+namespace etalon::gpu {
+
+namespace {
+
+constexpr std::array<gl::Enum, 4> kComponents{gl::kRed, gl::kRg, gl::kRgb, gl::kRgba};
+constexpr std::array<gl::Enum, 4> kUnorm8{gl::kR8, gl::kRg8, gl::kRgb8, gl::kRgba8};
+constexpr std::array<gl::Enum, 4> kUnorm16{gl::kR16, gl::kRg16, gl::kRgb16, gl::kRgba16};
+constexpr std::array<gl::Enum, 4> kHalf{gl::kR16f, gl::kRg16f, gl::kRgb16f, gl::kRgba16f};
+constexpr std::array<gl::Enum, 4> kFloat32{gl::kR32f, gl::kRg32f, gl::kRgb32f, gl::kRgba32f};
+
+}  // namespace
+
+GlFormat texture_format(PixelFormat format) {
+  ETALON_CHECK(format.channels >= 1 && format.channels <= 4, to_string(format));
+  const auto i = static_cast<std::size_t>(format.channels - 1);
+  switch (format.type) {
+    case ChannelType::unorm8: return {kUnorm8[i], kComponents[i], gl::kUnsignedByte};
+    case ChannelType::unorm16: return {kUnorm16[i], kComponents[i], gl::kUnsignedShort};
+    case ChannelType::half: return {kHalf[i], kComponents[i], gl::kHalfFloat};
+    case ChannelType::float32: return {kFloat32[i], kComponents[i], gl::kFloat};
+    case ChannelType::srgb8:
+    case ChannelType::uint32: break;
+  }
+  ETALON_CHECK(false, to_string(format));
+  return {};
+}
+
+PixelFormat stored_target_format(PixelFormat format) { return {format.type, format.channels == 3 ? 4 : format.channels}; }
+
+GlFormat target_format(PixelFormat format) {
+  if (format == kR32ui) return {gl::kR32ui, gl::kRedInteger, gl::kUnsignedInt};
+  return texture_format(stored_target_format(format));
+}
+
+}  // namespace etalon::gpu

@@ -1,0 +1,24 @@
+// Pixel formats in OpenGL's words, for textures (sources) and renderbuffers (targets).
+#pragma once
+
+#include "core/image/pixel_format.h"
+#include "gpu/gl_api.h"
+
+namespace etalon::gpu {
+
+/// How OpenGL stores a format and how client memory holds it.
+struct GlFormat {
+  gl::Enum internal = gl::kNone;
+  gl::Enum components = gl::kNone;  ///< GL_RED .. GL_RGBA
+  gl::Enum type = gl::kNone;        ///< GL_UNSIGNED_BYTE ..
+};
+
+/// Exact storage of a source: unorm8, unorm16, half, float32 with 1..4 channels. Other types are an InternalError (callers convert or refuse them).
+[[nodiscard]] GlFormat texture_format(PixelFormat format);
+
+/// A format that OpenGL 3.3 must be able to draw into and that holds `format`'s channels: as above, R uint32 too; three channels are
+/// stored as four, since RGB need not be renderable.
+[[nodiscard]] PixelFormat stored_target_format(PixelFormat format);
+[[nodiscard]] GlFormat target_format(PixelFormat format);
+
+}  // namespace etalon::gpu

@@ -1,0 +1,78 @@
+#include "gpu/gl_renderer.h"
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "core/base/error.h"
+
+namespace etalon::gpu {
+
+namespace {
+
+bool is_real_target(PixelFormat format) {
+  return format.type != ChannelType::srgb8 && format.type != ChannelType::uint32 && format.channels >= 1 && format.channels <= 4;
+}
+
+}  // namespace
+
+GlRenderer::GlRenderer(std::unique_ptr<Context> context) : context_(std::move(context)) {
+  pipeline_ = std::make_unique<GlPipeline>(*context_);
+  device_ = probe(*context_, *pipeline_);
+}
+
+GlRenderer::GlRenderer(const ContextOptions& options) : GlRenderer(make_context(options)) {}
+
+GlRenderer::~GlRenderer() = default;
+
+std::string GlRenderer::name() const { return device_.name(); }
+
+RasterState GlRenderer::supported_state(const RasterState& wanted) const {
+  RasterState state = wanted;
+  state.subtexel_bits = std::min(wanted.subtexel_bits, device_.subtexel_bits);
+  state.fill_rule = device_.fill_rule.value_or(wanted.fill_rule);
+  state.half_rounding = device_.half_rounding;
+  return state;
+}
+
+bool GlRenderer::supports(const TargetSpec& target) const {
+  switch (target.content) {
+    case TargetContent::color: return is_real_target(target.format);
+    case TargetContent::triangle_id: return target.format == kR32ui;
+    case TargetContent::barycentrics: return is_real_target(target.format) && target.format.channels == 3;
+    case TargetContent::coordinate: return is_real_target(target.format) && target.format.channels == 2;
+    case TargetContent::depth: return target.format == kR32f;
+    case TargetContent::margins:
+    case TargetContent::bound_terms: return false;
+  }
+  return false;
+}
+
+std::vector<Image> GlRenderer::render(const DrawList& list, const Frame& frame) {
+  validate(list, frame);
+  require_support(frame);
+  return pipeline_->draw(list, frame);
+}
+
+void GlRenderer::require_support(const Frame& frame) const {
+  for (const TargetSpec& target : frame.targets) {
+    if (!supports(target)) {
+      throw UnavailableError(fmt::format("{} does not draw {} into {}", name(), to_string(target.content), to_string(target.format)));
+    }
+  }
+  const RasterState state = supported_state(frame.state);
+  if (state.subtexel_bits != frame.state.subtexel_bits) {
+    throw UnavailableError(fmt::format("{} has {} sub-texel bits, the frame asks for {}", name(), state.subtexel_bits, frame.state.subtexel_bits));
+  }
+  if (!device_.fill_rule) throw UnavailableError(fmt::format("{} fills edges by none of the four rules", name()));
+  if (state.fill_rule != frame.state.fill_rule) {
+    throw UnavailableError(fmt::format("{} fills edges by {}, the frame asks for {}", name(), to_string(state.fill_rule), to_string(frame.state.fill_rule)));
+  }
+  const bool stores_half = std::any_of(frame.targets.begin(), frame.targets.end(),
+                                       [](const TargetSpec& target) { return target.format.type == ChannelType::half; });
+  if (stores_half && state.half_rounding != frame.state.half_rounding) {
+    throw UnavailableError(fmt::format("{} rounds halves {}, the frame asks for {}", name(), to_string(state.half_rounding), to_string(frame.state.half_rounding)));
+  }
+}
+
+}  // namespace etalon::gpu

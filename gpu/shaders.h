@@ -1,0 +1,26 @@
+// The native shaders, written for what a frame asks: what an application would write, varyings and texture().
+// Does not: branch on shading at run time, or compute anything no target receives.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/draw/draw_list.h"
+
+namespace etalon::gpu {
+
+// Vertex attributes by location, and the texture unit of each sampler.
+inline constexpr unsigned kPositionLocation = 0;
+inline constexpr unsigned kUvLocation = 1;
+inline constexpr unsigned kColorLocation = 2;
+inline constexpr int kImageUnit = 0;
+inline constexpr int kIndexingMapUnit = 1;
+
+/// Passes uv and colour on; the id and the barycentric corners follow from gl_VertexID, since vertices are not shared between triangles:
+/// `first_triangle` is the id of the buffer's first triangle. The id is the same at all three vertices, so the provoking vertex cannot matter.
+[[nodiscard]] std::string vertex_shader_source();
+
+/// One output per target that is not depth, in order, at consecutive locations.
+[[nodiscard]] std::string fragment_shader_source(Shading shading, const std::vector<TargetSpec>& targets);
+
+}  // namespace etalon::gpu
