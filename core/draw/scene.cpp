@@ -1,0 +1,187 @@
+#include "core/draw/scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.h"
+#include "core/draw/clip.h"
+
+namespace etalon {
+namespace {
+
+double rounded(double x, SnapRounding rounding) {
+  const double below = std::floor(x), rest = x - below;  // |x| <= 2^30: exact, or rounded to 1 for a tiny negative x, which decides alike
+  switch (rounding) {
+    case SnapRounding::nearest_even: return rest > 0.5 || (rest == 0.5 && (static_cast<std::int64_t>(below) & 1) != 0) ? below + 1 : below;
+    case SnapRounding::half_up: return rest >= 0.5 ? below + 1 : below;
+    case SnapRounding::half_away: return rest > 0.5 || (rest == 0.5 && x > 0) ? below + 1 : below;
+    case SnapRounding::toward_zero: return x < 0 && rest != 0 ? below + 1 : below;
+    case SnapRounding::floor: return below;
+  }
+  return below;
+}
+
+// The images of a scene, each once, and its draws as faces come in.
+class ListBuilder {
+ public:
+  ListBuilder(const std::vector<Material>& materials, DrawList& list) : materials_(materials), list_(list) {
+    if (materials.empty()) throw InputError("scene: expected at least one material");
+  }
+
+  void begin_face(std::uint32_t material) {
+    if (material >= materials_.size())
+      throw InputError(fmt::format("scene: face material {} of {}", material, materials_.size()));
+    Draw draw;
+    const Material& m = materials_[material];
+    if (m.texture != nullptr) {
+      draw.shading = m.indexing_map != nullptr ? Shading::indexed : Shading::texture;
+      draw.texture = image(m.texture), draw.sampler = m.sampler;
+      if (m.indexing_map != nullptr) draw.indexing_map = image(m.indexing_map), draw.map_sampler = m.map_sampler;
+    }
+    if (!list_.draws.empty()) {
+      draw.first_triangle = list_.draws.back().first_triangle, draw.triangle_count = list_.draws.back().triangle_count;
+      if (draw == list_.draws.back()) return;
+    }
+    draw.first_triangle = static_cast<std::uint32_t>(list_.triangles.size()), draw.triangle_count = 0;
+    list_.draws.push_back(draw);
+  }
+
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t face) {
+    list_.triangles.push_back({a, b, c});
+    list_.source_faces.push_back(face);
+    ++list_.draws.back().triangle_count;
+  }
+
+ private:
+  std::uint32_t image(const std::shared_ptr<const Image>& wanted) {
+    for (std::size_t n = 0; n < list_.images.size(); ++n)
+      if (list_.images[n] == wanted) return static_cast<std::uint32_t>(n);
+    list_.images.push_back(wanted);
+    return static_cast<std::uint32_t>(list_.images.size() - 1);
+  }
+  const std::vector<Material>& materials_;
+  DrawList& list_;
+};
+
+void check_mesh(const Mesh& mesh) {
+  if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
+    throw InputError(fmt::format("mesh: expected {} vertex colours or none, got {}", mesh.positions.size(), mesh.colors.size()));
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    for (const WedgeId wedge : mesh.faces[f])
+      if (wedge.index >= mesh.wedges.size() || mesh.wedges[wedge.index].vertex.index >= mesh.positions.size())
+        throw InputError(fmt::format("mesh: face {} names a wedge or vertex that does not exist", f));
+}
+
+Vec4f color_of(const Mesh& mesh, VertexId vertex) {
+  return mesh.colors.empty() ? Vec4f(0.5f, 0.5f, 0.5f, 1) : mesh.colors[vertex.index];
+}
+
+ClipVertex clip_vertex(const Mesh& mesh, WedgeId id, const Matrix4& clip_from_object) {
+  const Wedge& wedge = mesh.wedges[id.index];
+  const Vec3f& p = mesh.positions[wedge.vertex.index];
+  const auto row = [&](int r) {
+    const double* m = clip_from_object.m[r];
+    return static_cast<float>(m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]);
+  };
+  ClipVertex v;
+  v.x = row(0), v.y = row(1), v.z = row(2), v.w = row(3);
+  v.uv = wedge.uv;
+  v.color = color_of(mesh, wedge.vertex);
+  v.order = wedge.vertex.index;
+  return v;
+}
+
+RasterVertex raster_vertex(const ClipVertex& v, const Frame& frame) {
+  const double w = v.w;
+  // After clipping only the rounding of a cut vertex can leave the guard or the depth range, by less than a sub-texel: brought back here.
+  const auto window = [&](float clip, int size) {
+    const double texels = (double{clip} / w + 1) * 0.5 * size;
+    return std::clamp(texels, -static_cast<double>(frame.guard), static_cast<double>(size) + frame.guard);
+  };
+  RasterVertex r;
+  r.x = snap(window(v.x, frame.width), frame.state);
+  r.y = snap(window(v.y, frame.height), frame.state);
+  r.z = static_cast<float>(std::clamp((double{v.z} / w + 1) * 0.5, 0.0, 1.0));
+  r.w = v.w;
+  r.uv = v.uv;
+  r.color = v.color;
+  return r;
+}
+
+bool all_inside(const std::array<ClipVertex, 3>& t, const std::array<ClipPlane, 6>& planes) {
+  for (const ClipPlane& p : planes)
+    for (const ClipVertex& v : t)
+      if (p.x * v.x + p.y * v.y + p.z * v.z + p.w * v.w < 0) return false;
+  return true;
+}
+
+}  // namespace
+
+std::int32_t snap(double x_texel, const RasterState& state) {
+  const double scaled = x_texel * static_cast<double>(1 << state.subtexel_bits);  // exact: a power of two
+  if (!(std::abs(scaled) <= 0x1p30)) throw InputError(fmt::format("position: expected at most 2^30 sub-texels, got {}", scaled));
+  return static_cast<std::int32_t>(rounded(scaled, state.snap));
+}
+
+DrawList make_scene(const Mesh& mesh, const std::vector<Material>& materials, const Camera& camera, const Frame& frame) {
+  check_mesh(mesh);
+  const Matrix4 matrix = clip_from_object(camera, frame.width, frame.height);
+  const auto planes = clip_planes(frame.width, frame.height, frame.guard);
+  DrawList list;
+  ListBuilder builder(materials, list);
+
+  // Wedges become raster vertices once, when first met by a face that needs no clipping.
+  std::vector<ClipVertex> clip(mesh.wedges.size());
+  for (std::size_t w = 0; w < clip.size(); ++w) clip[w] = clip_vertex(mesh, WedgeId(w), matrix);
+  std::vector<std::uint32_t> vertex_of_wedge(mesh.wedges.size(), kNoTriangle);
+  const auto add_vertex = [&](const ClipVertex& v) {
+    list.vertices.push_back(raster_vertex(v, frame));
+    return static_cast<std::uint32_t>(list.vertices.size() - 1);
+  };
+
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const auto& face = mesh.faces[f];
+    const std::array<ClipVertex, 3> triangle = {clip[face[0].index], clip[face[1].index], clip[face[2].index]};
+    builder.begin_face(mesh.face_materials.empty() ? 0 : mesh.face_materials[f]);
+    if (all_inside(triangle, planes)) {
+      std::array<std::uint32_t, 3> v{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::uint32_t& id = vertex_of_wedge[face[k].index];
+        if (id == kNoTriangle) id = add_vertex(triangle[k]);
+        v[k] = id;
+      }
+      builder.add_triangle(v[0], v[1], v[2], static_cast<std::uint32_t>(f));
+      continue;
+    }
+    const std::vector<ClipVertex> polygon = clip_triangle(triangle, planes);
+    std::vector<std::uint32_t> v;
+    for (const ClipVertex& p : polygon) v.push_back(add_vertex(p));
+    for (std::size_t k = 2; k < v.size(); ++k) builder.add_triangle(v[0], v[k - 1], v[k], static_cast<std::uint32_t>(f));
+  }
+  std::erase_if(list.draws, [](const Draw& draw) { return draw.triangle_count == 0; });
+  return list;
+}
+
+DrawList make_uv_scene(const Mesh& mesh, const std::vector<Material>& materials, const Frame& frame) {
+  check_mesh(mesh);
+  DrawList list;
+  ListBuilder builder(materials, list);
+  for (const Wedge& wedge : mesh.wedges) {
+    RasterVertex v;
+    v.x = snap(double{wedge.uv.x} * frame.width, frame.state);
+    v.y = snap(double{wedge.uv.y} * frame.height, frame.state);
+    v.uv = wedge.uv;
+    v.color = color_of(mesh, wedge.vertex);
+    list.vertices.push_back(v);
+  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    builder.begin_face(mesh.face_materials.empty() ? 0 : mesh.face_materials[f]);
+    const auto& face = mesh.faces[f];
+    builder.add_triangle(face[0].index, face[1].index, face[2].index, static_cast<std::uint32_t>(f));
+  }
+  return list;
+}
+
+}  // namespace etalon

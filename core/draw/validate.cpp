@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/base/error.h"
+#include "core/draw/draw_list.h"
+#include "core/math/half.h"
+
+namespace etalon {
+namespace {
+
+constexpr int kMaxFrame = 16384;
+
+[[noreturn]] void refuse(const std::string& message) { throw InputError("draw list: " + message); }
+
+void validate_target(const TargetSpec& target, std::size_t n) {
+  const PixelFormat f = target.format;
+  const auto expect = [&](bool good, const char* expected) {
+    if (!good) refuse(fmt::format("target {} ({}): expected {}, got {}", n, to_string(target.content), expected, to_string(f)));
+  };
+  if (f.channels < 1 || f.channels > 4) refuse(fmt::format("target {}: expected 1 to 4 channels, got {}", n, f.channels));
+  const bool number = f.type != ChannelType::uint32;
+  switch (target.content) {
+    case TargetContent::color: expect(number, "any format but uint32"); break;
+    case TargetContent::triangle_id: expect(f == kR32ui, "r uint32"); break;
+    case TargetContent::barycentrics: expect(number && f.channels == 3, "3 channels, not uint32"); break;
+    case TargetContent::coordinate: expect(number && f.channels == 2, "2 channels, not uint32"); break;
+    case TargetContent::depth: expect(f == kR32f, "r float32"); break;
+    case TargetContent::margins: expect(f == kRgba32f, "rgba float32"); break;
+    case TargetContent::bound_terms: expect(f == kRg32f, "rg float32"); break;
+  }
+  for (const float c : target.clear)
+    if (!std::isfinite(c)) refuse(fmt::format("target {}: expected a finite clear value, got {}", n, c));
+}
+
+void validate_frame(const Frame& frame) {
+  if (frame.width < 1 || frame.height < 1 || frame.guard < 0 || frame.width > kMaxFrame || frame.height > kMaxFrame ||
+      std::max(frame.width, frame.height) + 2 * static_cast<std::int64_t>(frame.guard) > kMaxFrame)
+    refuse(fmt::format("frame: expected 1 to {0} texels a side, with twice the guard at most {0}, got {1}x{2} with guard {3}", kMaxFrame,
+                       frame.width, frame.height, frame.guard));
+  if (frame.state.subtexel_bits < 1 || frame.state.subtexel_bits > 16)
+    refuse(fmt::format("sub-texel bits: expected 1 to 16, got {}", frame.state.subtexel_bits));
+  for (std::size_t n = 0; n < frame.targets.size(); ++n) validate_target(frame.targets[n], n);
+}
+
+void validate_vertices(const DrawList& list, const Frame& frame) {
+  const std::int64_t guard = frame.guard, bits = frame.state.subtexel_bits;
+  const std::int64_t lo = -(guard << bits), x_hi = (frame.width + guard) << bits, y_hi = (frame.height + guard) << bits;
+  const auto attribute_ok = [](float a) { return std::abs(a) <= 0x1p40f; };  // false for NaN
+  for (std::size_t n = 0; n < list.vertices.size(); ++n) {
+    const RasterVertex& v = list.vertices[n];
+    if (v.x < lo || v.x > x_hi || v.y < lo || v.y > y_hi)
+      refuse(fmt::format("vertex {}: expected a position in [{}, {}] x [{}, {}] sub-texels, got ({}, {})", n, lo, x_hi, lo, y_hi, v.x, v.y));
+    if (!(v.z >= 0 && v.z <= 1)) refuse(fmt::format("vertex {}: expected z in [0, 1], got {}", n, v.z));
+    if (!(v.w >= 0x1p-20f && v.w <= 0x1p20f)) refuse(fmt::format("vertex {}: expected w in [2^-20, 2^20], got {}", n, v.w));
+    if (!attribute_ok(v.uv.x) || !attribute_ok(v.uv.y))
+      refuse(fmt::format("vertex {}: expected finite uv of at most 2^40, got ({}, {})", n, v.uv.x, v.uv.y));
+    for (int c = 0; c < 4; ++c)
+      if (!attribute_ok(v.color[c])) refuse(fmt::format("vertex {}: expected a finite colour of at most 2^40, got {}", n, v.color[c]));
+  }
+  for (std::size_t t = 0; t < list.triangles.size(); ++t)
+    for (const std::uint32_t corner : list.triangles[t])
+      if (corner >= list.vertices.size())
+        refuse(fmt::format("triangle {}: expected vertex indices below {}, got {}", t, list.vertices.size(), corner));
+}
+
+// Scans the texels a lookup may meet: finite, and within `limit` where their size matters.
+template <class Read>
+void validate_texels(const Image& image, std::uint32_t index, double limit, int channels, Read read) {
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      for (int c = 0; c < channels; ++c) {
+        const double value = read(x, y, c);
+        if (!(std::abs(value) <= limit))
+          refuse(fmt::format("image {}, texel ({}, {}): expected a finite number of at most {}, got {}", index, x, y, limit, value));
+      }
+}
+
+void validate_image(const DrawList& list, std::size_t draw, std::uint32_t index, const char* role, double limit, int least_channels) {
+  if (index >= list.images.size() || list.images[index] == nullptr || list.images[index]->empty())
+    refuse(fmt::format("draw {}: expected an image as {}, got none", draw, role));
+  const Image& image = *list.images[index];
+  if (image.format().type == ChannelType::uint32) refuse(fmt::format("draw {}: {} is uint32, which cannot be looked up", draw, role));
+  if (image.format().channels < least_channels)
+    refuse(fmt::format("draw {}: expected {} with at least {} channels, got {}", draw, role, least_channels, image.format().channels));
+  if (image.format().type == ChannelType::float32)
+    validate_texels(image, index, limit, image.format().channels, [&](int x, int y, int c) { return double{image.channels<float>(x, y)[c]}; });
+  if (image.format().type == ChannelType::half)
+    validate_texels(image, index, limit, image.format().channels, [&](int x, int y, int c) {
+      return half_to_double(image.channels<std::uint16_t>(x, y)[c]);
+    });
+}
+
+// |u|·size < 2^30 for all vertices of the draw: interpolation cannot leave their range.
+void validate_lookup_range(const DrawList& list, const Draw& draw, std::size_t n, const Image& image) {
+  for (std::uint32_t t = draw.first_triangle; t < draw.first_triangle + draw.triangle_count; ++t)
+    for (const std::uint32_t corner : list.triangles[t]) {
+      const Vec2f uv = list.vertices[corner].uv;
+      if (std::abs(double{uv.x}) * image.width() >= 0x1p30 || std::abs(double{uv.y}) * image.height() >= 0x1p30)
+        refuse(fmt::format("draw {}, triangle {}: expected |uv| times the image's size below 2^30, got ({}, {})", n, t, uv.x, uv.y));
+    }
+}
+
+void validate_draw(const DrawList& list, std::size_t n) {
+  const Draw& draw = list.draws[n];
+  if (draw.shading == Shading::vertex_color) return;
+  constexpr double kMaxHalf = 65504, kMaxTexel = 0x1p40;
+  const auto texel_limit = [&](std::uint32_t image, const Sampler& sampler) {
+    const bool half = image < list.images.size() && list.images[image] != nullptr && list.images[image]->format().type == ChannelType::half;
+    return half ? kMaxHalf : sampler.filter == Filter::linear ? kMaxTexel : static_cast<double>(std::numeric_limits<float>::max());
+  };
+  validate_image(list, n, draw.texture, "texture", texel_limit(draw.texture, draw.sampler), 1);
+  const Image& texture = *list.images[draw.texture];
+  if (draw.shading == Shading::texture) return validate_lookup_range(list, draw, n, texture);
+  const double coordinate_limit = std::min(kMaxTexel, 0x1p30 / std::max(texture.width(), texture.height()) * (1 - 0x1p-24));
+  validate_image(list, n, draw.indexing_map, "indexing map", std::min(coordinate_limit, texel_limit(draw.indexing_map, draw.map_sampler)), 2);
+  validate_lookup_range(list, draw, n, *list.images[draw.indexing_map]);
+}
+
+}  // namespace
+
+void validate(const DrawList& list, const Frame& frame) {
+  validate_frame(frame);
+  validate_vertices(list, frame);
+  std::uint64_t next = 0;
+  for (std::size_t n = 0; n < list.draws.size(); ++n) {
+    if (list.draws[n].first_triangle != next) refuse(fmt::format("draw {}: expected to begin at triangle {}, got {}", n, next, list.draws[n].first_triangle));
+    next += list.draws[n].triangle_count;
+    if (next > list.triangles.size()) refuse(fmt::format("draw {}: ends at triangle {} of {}", n, next, list.triangles.size()));
+    validate_draw(list, n);
+  }
+  if (next != list.triangles.size()) refuse(fmt::format("the draws end at triangle {} of {}", next, list.triangles.size()));
+  if (list.triangles.size() >= kNoTriangle) refuse("more than 2^32 - 2 triangles");
+  if (!list.source_faces.empty() && list.source_faces.size() != list.triangles.size())
+    refuse(fmt::format("source faces: expected none or {}, got {}", list.triangles.size(), list.source_faces.size()));
+}
+
+}  // namespace etalon

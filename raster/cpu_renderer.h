@@ -1,0 +1,29 @@
+// The exact renderer: docs/contract.md, every texel, on CPU threads. Bytes do not depend on threads, compiler or evaluation.
+#pragma once
+
+#include "core/draw/renderer.h"
+#include "raster/sample_values.h"
+
+namespace etalon::raster {
+
+/// Version of docs/contract.md that this renderer implements; goldens change only with it.
+inline constexpr int kRasterContractVersion = 1;
+
+class CpuRenderer : public Renderer {
+ public:
+  explicit CpuRenderer(Evaluation evaluation = Evaluation::filtered) : evaluation_(evaluation) {}
+
+  [[nodiscard]] std::string name() const override;
+  [[nodiscard]] RasterState supported_state(const RasterState& wanted) const override { return wanted; }
+  [[nodiscard]] bool supports(const TargetSpec&) const override { return true; }
+  [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override;
+
+  /// Of the last render().
+  [[nodiscard]] const EvaluationCounters& counters() const { return counters_; }
+
+ private:
+  Evaluation evaluation_;
+  EvaluationCounters counters_;
+};
+
+}  // namespace etalon::raster
