@@ -22,7 +22,7 @@ namespace etalon {
 [[nodiscard]] constexpr std::uint16_t half_toward_zero(double x) {
   const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
   const auto sign = static_cast<std::uint16_t>(bits >> 48 & 0x8000);
-  const double magnitude = x < 0 ? -x : x;
+  const double magnitude = x < 0 ? -x : x + 0.0;  // −0 becomes 0
   if (magnitude >= 65504.0) return sign | 0x7BFF;
   if (magnitude < 0x1p-14) return sign | static_cast<std::uint16_t>(magnitude * 0x1p24);
   const std::uint64_t m = std::bit_cast<std::uint64_t>(magnitude);
@@ -31,7 +31,7 @@ namespace etalon {
 
 /// The half nearest to x, ties to even; |x| >= 65520 gives inf. x finite.
 [[nodiscard]] constexpr std::uint16_t half_nearest_even(double x) {
-  const double magnitude = x < 0 ? -x : x;
+  const double magnitude = x < 0 ? -x : x + 0.0;  // −0 becomes 0
   const auto sign = static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(x) >> 48 & 0x8000);
   if (magnitude >= 65520.0) return sign | 0x7C00;
   const auto below = static_cast<std::uint16_t>(half_toward_zero(magnitude));
