@@ -45,6 +45,25 @@ Camera camera_from(const Sphere& sphere, const Vec3d& direction, double distance
   return camera;
 }
 
+// The nearest view from `direction` in which the box's eight corners stay inside 15/16 of the frame.
+Camera filling_view(const BoundingBox& box, const Vec3d& direction, double aspect) {
+  constexpr double kTan = 0.25, kFilled = 0.9375;
+  const Sphere sphere = bounding_sphere(box);
+  const Vec3d back = normalized(direction, "a direction of length 0");
+  const Vec3d right = normalized(cross({0, 1, 0}, back), "looking along the y axis");
+  const Vec3d up = cross(back, right);
+  double distance = sphere.radius * 0x1p-6;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3d p = minus({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z}, sphere.center);
+    // |x| <= kFilled·tan·aspect·(distance − depth), and so on.
+    const double x = std::abs(dot(p, right)) / (kFilled * kTan * aspect), y = std::abs(dot(p, up)) / (kFilled * kTan);
+    distance = std::max(distance, dot(p, back) + std::max(x, y));
+  }
+  Camera camera = camera_from(sphere, direction, distance);
+  camera.tan_half_fov_y = kTan;
+  return camera;
+}
+
 }  // namespace
 
 Matrix4 clip_from_object(const Camera& camera, int width, int height) {
@@ -103,14 +122,7 @@ Camera named_view(const std::string& name, const BoundingBox& box, int width, in
   }
   if (name != "front" && name != "fit")
     throw InputError(fmt::format("view: expected front, fit, N/24 or a file, got '{}'", name));
-  const Sphere sphere = bounding_sphere(box);
-  // The ball touches the narrower side of the frame: tan = t on the half angle, sin = t / √(1 + t²), distance = radius / sin.
-  constexpr double kTan = 0.25;
-  const double narrow = kTan * std::min(1.0, static_cast<double>(width) / static_cast<double>(height));
-  const double distance = sphere.radius * std::sqrt(1 + narrow * narrow) / narrow;
-  Camera camera = camera_from(sphere, name == "front" ? Vec3d{0, 0, 1} : Vec3d{0.75, 0.375, 1}, distance);
-  camera.tan_half_fov_y = kTan;
-  return camera;
+  return filling_view(box, name == "front" ? Vec3d{0, 0, 1} : Vec3d{0.75, 0.375, 1}, static_cast<double>(width) / static_cast<double>(height));
 }
 
 }  // namespace etalon

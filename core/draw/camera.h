@@ -27,7 +27,7 @@ struct Matrix4 {
 
 /// The 24 views: directions are the permutations of (0, ±1, ±2), at 2.5 bounding-sphere radii, tan_half_fov_y 0.5, up +Y.
 [[nodiscard]] Camera view_of_24(const BoundingBox& box, int index);
-/// Named views: "front" (+Z, frame filled), "fit" (three-quarter), or "N/24". InputError for any other name.
+/// Named views: "front" (from +Z) and "fit" (three-quarter), the box filling the frame, or "N/24" of the 24 views. InputError for any other name.
 [[nodiscard]] Camera named_view(const std::string& name, const BoundingBox& box, int width, int height);
 
 }  // namespace etalon
