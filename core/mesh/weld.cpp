@@ -1,0 +1,90 @@
+#include "core/mesh/weld.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
+#include "core/base/error.h"
+
+namespace etalon {
+
+namespace {
+
+std::uint32_t bits_of(float x) { return x == 0 ? 0u : std::bit_cast<std::uint32_t>(x); }
+
+/// For each key the index, in order of first appearance, of the class of equal keys it belongs to; and each class's first member.
+struct Classes {
+  std::vector<std::uint32_t> class_of;
+  std::vector<std::uint32_t> first;
+};
+
+template <class Key>
+Classes classes_of_equal(const std::vector<Key>& keys) {
+  std::vector<std::uint32_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
+  std::vector<std::uint32_t> leader(keys.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    leader[order[i]] = i > 0 && keys[order[i]] == keys[order[i - 1]] ? leader[order[i - 1]] : order[i];
+  Classes result;
+  result.class_of.resize(keys.size());
+  for (std::uint32_t i = 0; i < keys.size(); ++i) {
+    if (leader[i] == i) {
+      result.class_of[i] = static_cast<std::uint32_t>(result.first.size());
+      result.first.push_back(i);
+    } else {
+      result.class_of[i] = result.class_of[leader[i]];
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+Mesh welded_by_position(const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 7>> vertex_keys(mesh.vertex_count());
+  for (std::size_t v = 0; v < vertex_keys.size(); ++v) {
+    for (int k = 0; k < 3; ++k) vertex_keys[v][static_cast<std::size_t>(k)] = bits_of(mesh.positions[v][k]);
+    if (!mesh.colors.empty())
+      for (int k = 0; k < 4; ++k) vertex_keys[v][static_cast<std::size_t>(3 + k)] = bits_of(mesh.colors[v][k]);
+  }
+  const Classes vertices = classes_of_equal(vertex_keys);
+
+  std::vector<std::array<std::uint32_t, 3>> wedge_keys(mesh.wedge_count());
+  for (std::size_t w = 0; w < wedge_keys.size(); ++w) {
+    const Wedge& wedge = mesh.wedges[w];
+    if (wedge.vertex.index >= mesh.vertex_count())
+      throw InputError(fmt::format("wedge {}: vertex: expected below {}, got {}", w, mesh.vertex_count(), wedge.vertex.index));
+    wedge_keys[w][0] = vertices.class_of[wedge.vertex.index];
+    if (mesh.has_uv) {
+      wedge_keys[w][1] = bits_of(wedge.uv.x);
+      wedge_keys[w][2] = bits_of(wedge.uv.y);
+    }
+  }
+  const Classes wedges = classes_of_equal(wedge_keys);
+
+  Mesh result;
+  result.has_uv = mesh.has_uv;
+  result.face_materials = mesh.face_materials;
+  for (const std::uint32_t v : vertices.first) {
+    result.positions.push_back(mesh.positions[v]);
+    if (!mesh.colors.empty()) result.colors.push_back(mesh.colors[v]);
+  }
+  for (const std::uint32_t w : wedges.first)
+    result.wedges.push_back({VertexId(vertices.class_of[mesh.wedges[w].vertex.index]), mesh.wedges[w].uv});
+  result.faces.reserve(mesh.face_count());
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    std::array<WedgeId, 3> face;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t w = mesh.faces[f][k].index;
+      if (w >= mesh.wedge_count()) throw InputError(fmt::format("face {}: wedge: expected below {}, got {}", f, mesh.wedge_count(), w));
+      face[k] = WedgeId(wedges.class_of[w]);
+    }
+    result.faces.push_back(face);
+  }
+  return result;
+}
+
+}  // namespace etalon
