@@ -20,8 +20,9 @@ class DriverChoice {
     const std::lock_guard lock(mutex_);
     if (chosen_) {
       if (options.driver == Driver::device_default || options.driver == *chosen_) return;
-      throw UnavailableError(fmt::format("OpenGL: Mesa's driver is chosen once per process and is {} already; {} needs a process of its own",
-                                         to_string(*chosen_), to_string(options.driver)));
+      throw UnavailableError(
+          fmt::format("OpenGL: Mesa's driver is chosen once per process and is {} already; {} needs a process of its own",
+                      to_string(*chosen_), to_string(options.driver)));
     }
     if (options.driver != Driver::device_default) setenv("GALLIUM_DRIVER", to_string(options.driver).c_str(), 1);
     if (options.threads >= 0) setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);

@@ -2,6 +2,8 @@
 // OSMesa is loaded at run time; where it is missing make_context() says so and the rest of etalon works on.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 

@@ -23,7 +23,7 @@ std::string error_name(Enum error) {
 
 Api load_api(const std::function<ProcAddress(const char*)>& get_proc_address) {
   Api api;
-#define ETALON_GL_LOAD_FUNCTION(result, member, name, parameters) \
+#define ETALON_GL_LOAD_FUNCTION(result, member, name, parameters)                    \
   api.member = reinterpret_cast<result(*) parameters>(get_proc_address("gl" #name)); \
   if (api.member == nullptr) throw UnavailableError("OpenGL: the library has no gl" #name);
   ETALON_GL_FUNCTIONS(ETALON_GL_LOAD_FUNCTION)

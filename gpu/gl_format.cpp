@@ -1,6 +1,9 @@
 #include "gpu/gl_format.h"
 
 #include <array>
+#include <limits>
+
+#include <fmt/core.h>
 
 #include "core/base/error.h"
 
@@ -36,6 +39,13 @@ PixelFormat stored_target_format(PixelFormat format) { return {format.type, form
 GlFormat target_format(PixelFormat format) {
   if (format == kR32ui) return {gl::kR32ui, gl::kRedInteger, gl::kUnsignedInt};
   return texture_format(stored_target_format(format));
+}
+
+void require_addressable(int width, int height, PixelFormat stored, const std::string& what) {
+  const std::int64_t size_bytes = std::int64_t{width} * height * bytes_per_texel(stored);
+  if (size_bytes > std::numeric_limits<std::int32_t>::max()) {
+    throw UnavailableError(fmt::format("OpenGL: {}: {} bytes, and at most 2^31 - 1 can be addressed in one image", what, size_bytes));
+  }
 }
 
 }  // namespace etalon::gpu

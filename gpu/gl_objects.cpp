@@ -37,30 +37,35 @@ GlHandle compile(const gl::Api& gl, gl::Enum stage, const std::string& source) {
   gl.get_shaderiv(shader.id(), gl::kInfoLogLength, &length);
   std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
   gl.get_shader_info_log(shader.id(), static_cast<gl::Sizei>(log.size()), nullptr, log.data());
-  throw UnavailableError(fmt::format("OpenGL: compiling the {} shader: {}",
-                                     stage == gl::kVertexShader ? "vertex" : "fragment", one_line(std::move(log))));
+  throw UnavailableError(
+      fmt::format("OpenGL: compiling the {} shader: {}", stage == gl::kVertexShader ? "vertex" : "fragment", one_line(std::move(log))));
 }
 
 }  // namespace
 
 GlHandle make_buffer(const gl::Api& gl) {
-  return make_named(gl, gl.gen_buffers, [](const gl::Api& api, gl::Uint id) { api.delete_buffers(1, &id); }, "buffer");
+  return make_named(
+      gl, gl.gen_buffers, [](const gl::Api& api, gl::Uint id) { api.delete_buffers(1, &id); }, "buffer");
 }
 
 GlHandle make_vertex_array(const gl::Api& gl) {
-  return make_named(gl, gl.gen_vertex_arrays, [](const gl::Api& api, gl::Uint id) { api.delete_vertex_arrays(1, &id); }, "vertex array");
+  return make_named(
+      gl, gl.gen_vertex_arrays, [](const gl::Api& api, gl::Uint id) { api.delete_vertex_arrays(1, &id); }, "vertex array");
 }
 
 GlHandle make_renderbuffer(const gl::Api& gl) {
-  return make_named(gl, gl.gen_renderbuffers, [](const gl::Api& api, gl::Uint id) { api.delete_renderbuffers(1, &id); }, "renderbuffer");
+  return make_named(
+      gl, gl.gen_renderbuffers, [](const gl::Api& api, gl::Uint id) { api.delete_renderbuffers(1, &id); }, "renderbuffer");
 }
 
 GlHandle make_framebuffer(const gl::Api& gl) {
-  return make_named(gl, gl.gen_framebuffers, [](const gl::Api& api, gl::Uint id) { api.delete_framebuffers(1, &id); }, "framebuffer");
+  return make_named(
+      gl, gl.gen_framebuffers, [](const gl::Api& api, gl::Uint id) { api.delete_framebuffers(1, &id); }, "framebuffer");
 }
 
 GlHandle make_texture(const gl::Api& gl) {
-  return make_named(gl, gl.gen_textures, [](const gl::Api& api, gl::Uint id) { api.delete_textures(1, &id); }, "texture");
+  return make_named(
+      gl, gl.gen_textures, [](const gl::Api& api, gl::Uint id) { api.delete_textures(1, &id); }, "texture");
 }
 
 GlHandle make_program(const gl::Api& gl, const std::string& vertex_source, const std::string& fragment_source) {

@@ -86,12 +86,14 @@ void GlPipeline::check_limits(const Frame& frame) const {
   const GuardViewport viewport = guard_viewport(frame);
   if (viewport.width > limits_.max_viewport_width_texel || viewport.height > limits_.max_viewport_height_texel) {
     throw UnavailableError(fmt::format("OpenGL: frame and guard need a viewport of {} x {} texels: this device has at most {} x {}",
-                                       viewport.width, viewport.height, limits_.max_viewport_width_texel, limits_.max_viewport_height_texel));
+                                       viewport.width, viewport.height, limits_.max_viewport_width_texel,
+                                       limits_.max_viewport_height_texel));
   }
   const auto colors = std::count_if(frame.targets.begin(), frame.targets.end(),
                                     [](const TargetSpec& spec) { return spec.content != TargetContent::depth; });
   if (colors > limits_.max_color_targets) {
-    throw UnavailableError(fmt::format("OpenGL: {} targets in one frame: this device takes at most {} beside depth", colors, limits_.max_color_targets));
+    throw UnavailableError(
+        fmt::format("OpenGL: {} targets in one frame: this device takes at most {} beside depth", colors, limits_.max_color_targets));
   }
 }
 

@@ -62,16 +62,19 @@ void GlRenderer::require_support(const Frame& frame) const {
   }
   const RasterState state = supported_state(frame.state);
   if (state.subtexel_bits != frame.state.subtexel_bits) {
-    throw UnavailableError(fmt::format("{} has {} sub-texel bits, the frame asks for {}", name(), state.subtexel_bits, frame.state.subtexel_bits));
+    throw UnavailableError(
+        fmt::format("{} has {} sub-texel bits, the frame asks for {}", name(), state.subtexel_bits, frame.state.subtexel_bits));
   }
   if (!device_.fill_rule) throw UnavailableError(fmt::format("{} fills edges by none of the four rules", name()));
   if (state.fill_rule != frame.state.fill_rule) {
-    throw UnavailableError(fmt::format("{} fills edges by {}, the frame asks for {}", name(), to_string(state.fill_rule), to_string(frame.state.fill_rule)));
+    throw UnavailableError(
+        fmt::format("{} fills edges by {}, the frame asks for {}", name(), to_string(state.fill_rule), to_string(frame.state.fill_rule)));
   }
   const bool stores_half = std::any_of(frame.targets.begin(), frame.targets.end(),
                                        [](const TargetSpec& target) { return target.format.type == ChannelType::half; });
   if (stores_half && state.half_rounding != frame.state.half_rounding) {
-    throw UnavailableError(fmt::format("{} rounds halves {}, the frame asks for {}", name(), to_string(state.half_rounding), to_string(frame.state.half_rounding)));
+    throw UnavailableError(fmt::format("{} rounds halves {}, the frame asks for {}", name(), to_string(state.half_rounding),
+                                       to_string(frame.state.half_rounding)));
   }
 }
 

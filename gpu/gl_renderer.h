@@ -33,8 +33,9 @@ class GlRenderer : public Renderer {
   /// colour, barycentrics and coordinate in unorm8, unorm16, half, float32; id; depth. Not srgb8, margins, bound_terms.
   [[nodiscard]] bool supports(const TargetSpec& target) const override;
 
-  /// InputError: validate() refuses. UnavailableError, one line: a target supports() refuses; a state other than supported_state() gives (half
-  /// rounding counts only with a half target); a device whose fill rule is none of the four; the device's limits or memory exceeded; any OpenGL error, with the step.
+  /// InputError: validate() refuses. UnavailableError, one line: a target supports() refuses; a state other than supported_state()
+  /// gives (half rounding counts only with a half target); a device whose fill rule is none of the four; the device's limits or
+  /// memory exceeded; any OpenGL error, with the step. The renderer stays usable.
   [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override;
 
   [[nodiscard]] const DeviceInfo& device() const { return device_; }

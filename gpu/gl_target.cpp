@@ -13,11 +13,13 @@ namespace etalon::gpu {
 
 namespace {
 
-GlHandle allocate(const gl::Api& gl, gl::Enum internal_format, int width, int height, const std::string& what) {
+GlHandle allocate(const gl::Api& gl, gl::Enum internal_format, PixelFormat stored, int width, int height, const std::string& name) {
+  const std::string what = fmt::format("a {} x {} {} target", width, height, name);
+  require_addressable(width, height, stored, what);
   GlHandle buffer = make_renderbuffer(gl);
   gl.bind_renderbuffer(gl::kRenderbuffer, buffer.id());
   gl.renderbuffer_storage(gl::kRenderbuffer, internal_format, width, height);
-  gl::check_error(gl, fmt::format("allocating a {} x {} {} target", width, height, what));
+  gl::check_error(gl, "allocating " + what);
   return buffer;
 }
 
@@ -25,7 +27,9 @@ GlHandle allocate(const gl::Api& gl, gl::Enum internal_format, int width, int he
 void copy_channels(const std::vector<std::byte>& stored, std::size_t stored_texel_bytes, Image& image) {
   const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(image.format()));
   std::byte* out = image.bytes().data();
-  for (std::size_t i = 0; i < image.texel_count(); ++i) std::memcpy(out + i * texel_bytes, stored.data() + i * stored_texel_bytes, texel_bytes);
+  for (std::size_t i = 0; i < image.texel_count(); ++i) {
+    std::memcpy(out + i * texel_bytes, stored.data() + i * stored_texel_bytes, texel_bytes);
+  }
 }
 
 }  // namespace
@@ -34,9 +38,10 @@ GlTargets::GlTargets(const gl::Api& gl, const Frame& frame)
     : gl_(gl), width_(frame.width), height_(frame.height), specs_(frame.targets), framebuffer_(make_framebuffer(gl)) {
   for (const TargetSpec& spec : specs_) {
     if (spec.content == TargetContent::depth) continue;
-    colors_.push_back(allocate(gl, target_format(spec.format).internal, width_, height_, to_string(spec.format)));
+    const gl::Enum internal = target_format(spec.format).internal;
+    colors_.push_back(allocate(gl, internal, stored_target_format(spec.format), width_, height_, to_string(spec.format)));
   }
-  depth_ = allocate(gl, gl::kDepthComponent32f, width_, height_, "depth");
+  depth_ = allocate(gl, gl::kDepthComponent32f, kR32f, width_, height_, "depth");
 
   gl.bind_framebuffer(gl::kFramebuffer, framebuffer_.id());
   std::vector<gl::Enum> attachments;
@@ -51,7 +56,9 @@ GlTargets::GlTargets(const gl::Api& gl, const Frame& frame)
   gl::check_error(gl, "attaching the targets");
   const gl::Enum status = gl.check_framebuffer_status(gl::kFramebuffer);
   if (status != gl::kFramebufferComplete) {
-    throw UnavailableError(fmt::format("OpenGL: the framebuffer of {} targets, {} x {}, is incomplete (0x{:04x})", specs_.size(), width_, height_, status));
+    throw UnavailableError(
+        fmt::format("OpenGL: the framebuffer of {} targets, {} x {}, is incomplete (0x{:04x}): the device's memory may be full",
+                    specs_.size(), width_, height_, status));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "gpu/gl_texture.h"
 
+#include <algorithm>
 #include <bit>
 
 #include <fmt/core.h>
@@ -82,13 +83,14 @@ GlHandle upload_texture(const gl::Api& gl, const Image& image, const Sampler& sa
   }
   Image storage;
   const Image& source = image_for_device(image, sampler.filter, storage);
+  require_addressable(source.width(), source.height(), source.format(), what);
   const GlFormat format = texture_format(source.format());
 
   GlHandle texture = make_texture(gl);
   gl.bind_texture(gl::kTexture2d, texture.id());
   gl.pixel_storei(gl::kUnpackAlignment, 1);
-  gl.tex_image_2d(gl::kTexture2d, 0, static_cast<gl::Int>(format.internal), source.width(), source.height(), 0, format.components, format.type,
-                  source.bytes().data());
+  gl.tex_image_2d(gl::kTexture2d, 0, static_cast<gl::Int>(format.internal), source.width(), source.height(), 0, format.components,
+                  format.type, source.bytes().data());
   // The default minification filter wants mipmaps; without them the texture would be incomplete and read as black.
   const auto filter = static_cast<gl::Int>(sampler.filter == Filter::linear ? gl::kLinear : gl::kNearest);
   gl.tex_parameteri(gl::kTexture2d, gl::kTextureBaseLevel, 0);

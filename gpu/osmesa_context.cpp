@@ -60,8 +60,8 @@ OsmesaLibrary open_library(const std::string& library_path) {
 class OsmesaContext final : public Context {
  public:
   explicit OsmesaContext(const std::string& library_path) : library_(open_library(library_path)) {
-    const std::array<int, 9> attributes{kOsmesaFormat, kOsmesaRgba, kOsmesaProfile, kOsmesaCoreProfile, kOsmesaContextMajorVersion, 3,
-                                        kOsmesaContextMinorVersion, 3, 0};
+    const std::array<int, 9> attributes{
+        kOsmesaFormat, kOsmesaRgba, kOsmesaProfile, kOsmesaCoreProfile, kOsmesaContextMajorVersion, 3, kOsmesaContextMinorVersion, 3, 0};
     context_ = library_.create_context(attributes.data(), nullptr);
     if (context_ == nullptr) throw UnavailableError(fmt::format("OpenGL: {} gives no 3.3 core context", library_.path));
     try {

@@ -9,13 +9,13 @@ namespace etalon::gpu {
 
 namespace {
 
-// The lattice of the fill-rule probe: all ordered pairs and triples of a few points on half texels of an 8 × 8 frame, so that edges of
-// every direction pass through sample points.
+// The lattice of the fill-rule probe: all triangles between nine sample points of an 8 × 8 cell, so that horizontal, vertical and
+// slanted edges, left and right ones, pass through samples.
 constexpr int kLatticeSize = 8;
 constexpr std::array<FillRule, 4> kFillRules{FillRule::left_ymin, FillRule::left_ymax, FillRule::right_ymin, FillRule::right_ymax};
 
 struct LatticePoint {
-  int x;  ///< half texels: odd coordinates are sample points
+  int x;  ///< half texels: odd coordinates are samples
   int y;
 };
 using LatticeTriangle = std::array<LatticePoint, 3>;
@@ -108,7 +108,7 @@ std::optional<FillRule> probe_fill_rule(GlPipeline& pipeline) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto [x0, y0] = origin(t);
     for (const LatticePoint p : triangles[t]) {
-      vertices.push_back({.x = (2 * x0 + p.x) * kHalfTexel, .y = (2 * y0 + p.y) * kHalfTexel, .z = 0, .w = 1, .uv = {0, 0}, .color = {1, 1, 1, 1}});
+      vertices.push_back({.x = (2 * x0 + p.x) * kHalfTexel, .y = (2 * y0 + p.y) * kHalfTexel});
     }
   }
   Frame frame;
@@ -136,7 +136,9 @@ std::optional<FillRule> probe_fill_rule(GlPipeline& pipeline) {
 
 }  // namespace
 
-std::string DeviceInfo::name() const { return mesa_version.empty() ? fmt::format("{}, OpenGL {}", renderer, version) : fmt::format("{}, Mesa {}", renderer, mesa_version); }
+std::string DeviceInfo::name() const {
+  return mesa_version.empty() ? fmt::format("{}, OpenGL {}", renderer, version) : fmt::format("{}, Mesa {}", renderer, mesa_version);
+}
 
 DeviceInfo probe(Context& context, GlPipeline& pipeline) {
   context.make_current();

@@ -16,8 +16,8 @@ inline constexpr unsigned kColorLocation = 2;
 inline constexpr int kImageUnit = 0;
 inline constexpr int kIndexingMapUnit = 1;
 
-/// Passes uv and colour on; the id and the barycentric corners follow from gl_VertexID, since vertices are not shared between triangles:
-/// `first_triangle` is the id of the buffer's first triangle. The id is the same at all three vertices, so the provoking vertex cannot matter.
+/// Passes uv and colour on; the id and the barycentric corners follow from gl_VertexID, since triangles share no vertices:
+/// `first_triangle` is the id of the buffer's first triangle. The three vertices have the same id: the provoking one cannot matter.
 [[nodiscard]] std::string vertex_shader_source();
 
 /// One output per target that is not depth, in order, at consecutive locations.
