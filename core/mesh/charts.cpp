@@ -24,16 +24,31 @@ std::vector<WedgeId> merged_wedges(const Mesh& mesh) {
   return result;
 }
 
-std::size_t count_seam_vertices(const Mesh& mesh) {
-  std::vector<WedgeId> only(mesh.vertex_count());
-  std::vector<bool> on_seam(mesh.vertex_count(), false);
-  for (const auto& face : mesh.faces)
+/// `merged` has equal texture coordinates as equal wedges.
+void count_seams(const Mesh& merged, Charts& result) {
+  std::vector<WedgeId> only(merged.vertex_count());
+  std::vector<bool> split(merged.vertex_count(), false), on_seam(merged.vertex_count(), false);
+  for (const auto& face : merged.faces)
     for (const WedgeId w : face) {
-      const std::uint32_t v = mesh.wedges[w.index].vertex.index;
-      if (only[v].valid() && only[v] != w) on_seam[v] = true;
+      const std::uint32_t v = merged.wedges[w.index].vertex.index;
+      if (only[v].valid() && only[v] != w) split[v] = true;
       only[v] = w;
     }
-  return static_cast<std::size_t>(std::count(on_seam.begin(), on_seam.end(), true));
+  const Adjacency adjacency(merged);
+  for (std::uint32_t e = 0; e < adjacency.edge_count(); ++e) {
+    const auto on = adjacency.half_edges(EdgeId(e));
+    const auto wedges = [&](HalfEdgeId h) {  // in one direction for all
+      const auto& face = merged.faces[Adjacency::face(h).index];
+      const std::size_t k = h.index % 3;
+      const bool along = adjacency.start(h) == adjacency.start(on[0]);
+      return along ? std::pair(face[k], face[(k + 1) % 3]) : std::pair(face[(k + 1) % 3], face[k]);
+    };
+    if (std::all_of(on.begin(), on.end(), [&](HalfEdgeId h) { return wedges(h) == wedges(on[0]); })) continue;
+    ++result.seam_edge_count;
+    on_seam[adjacency.start(on[0])] = on_seam[adjacency.end(on[0])] = true;
+  }
+  result.split_vertex_count = static_cast<std::size_t>(std::count(split.begin(), split.end(), true));
+  result.seam_vertex_count = static_cast<std::size_t>(std::count(on_seam.begin(), on_seam.end(), true));
 }
 
 }  // namespace
@@ -50,7 +65,7 @@ Charts find_charts(const Mesh& mesh) {
   Charts result;
   result.of_face = components.of_face;
   result.charts.resize(components.count);
-  result.seam_vertex_count = count_seam_vertices(merged);
+  count_seams(merged, result);
 
   std::vector<double> signed_area(components.count, 0);
   std::vector<int> signs(mesh.face_count());

@@ -20,7 +20,9 @@ struct Chart {
 struct Charts {
   std::vector<std::uint32_t> of_face;  ///< #F: index into charts
   std::vector<Chart> charts;           ///< numbered by their lowest face
-  std::size_t seam_vertex_count = 0;   ///< vertices that faces use with two or more different texture coordinates
+  std::size_t seam_edge_count = 0;     ///< edges of several faces across which texture coordinates do not continue
+  std::size_t seam_vertex_count = 0;   ///< vertices on such an edge, the ends of cuts included
+  std::size_t split_vertex_count = 0;  ///< vertices that faces use with two or more different texture coordinates
 };
 
 /// Charts of a mesh with uv. Faces are connected where they share an edge with equal texture coordinates at both ends, whether or not they share wedge

@@ -138,7 +138,9 @@ class Examiner {
   void texture_space() {
     const Charts charts = find_charts(mesh_);
     report_.chart_count = charts.charts.size();
+    report_.seam_edge_count = charts.seam_edge_count;
     report_.seam_vertex_count = charts.seam_vertex_count;
+    report_.split_vertex_count = charts.split_vertex_count;
     std::vector<std::uint32_t> folds, flat;
     for (std::uint32_t c = 0; c < charts.charts.size(); ++c) {
       const Chart& chart = charts.charts[c];

@@ -48,7 +48,8 @@ struct MeshReport {
   Defect degenerate_faces;          ///< faces of exactly zero area in space
 
   // Texture space.
-  std::size_t chart_count = 0, largest_chart_faces = 0, seam_vertex_count = 0;
+  std::size_t chart_count = 0, largest_chart_faces = 0;
+  std::size_t seam_edge_count = 0, seam_vertex_count = 0, split_vertex_count = 0;  ///< as in Charts
   std::size_t negative_uv_faces = 0;///< faces of exactly negative area in (u, v), v up
   Vec2f uv_min{0, 0}, uv_max{0, 0};
   Defect degenerate_uv_faces;       ///< faces of exactly zero area in texture space
