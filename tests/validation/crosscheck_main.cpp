@@ -1,0 +1,37 @@
+// etalon_crosscheck [TEXELS [FIRST_SEED [LARGEST]]]: the CPU renderer against OpenGL on random scenes, until TEXELS texels are compared.
+// A long run is resumed with the seed the last table ends before. Exit 0: nothing unexplained; 2: something is; 1: no OpenGL here.
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/base/error.h"
+#include "gpu/gl_renderer.h"
+#include "raster/cpu_renderer.h"
+#include "tests/validation/cross_check.h"
+
+int main(int argc, char** argv) {
+  using namespace etalon;
+  test::CrossCheckOptions options;
+  if (argc > 1) options.texels = std::strtoull(argv[1], nullptr, 10);
+  if (argc > 2) options.first_seed = std::strtoull(argv[2], nullptr, 10);
+  if (argc > 3) options.largest = std::atoi(argv[3]);
+  options.progress = [next = std::uint64_t{0}, &options](const test::CrossCheckTotals& totals) mutable {
+    if (totals.total.total() < next) return;
+    next += options.texels / 10 + 1;
+    std::fputs(test::format_totals(totals).c_str(), stdout);
+    std::fflush(stdout);
+  };
+  try {
+    raster::CpuRenderer cpu;
+    gpu::GlRenderer gl(gpu::ContextOptions{.driver = gpu::Driver::llvmpipe});
+    std::printf("%s against %s\n", cpu.name().c_str(), gl.name().c_str());
+    const test::CrossCheckTotals totals = test::cross_check(cpu, gl, validation::llvmpipe_model(), options);
+    std::fputs(test::format_totals(totals).c_str(), stdout);
+    return totals.total[validation::TexelClass::unexplained] == 0 ? 0 : 2;
+  } catch (const UnavailableError& error) {
+    std::fprintf(stderr, "etalon_crosscheck: %s\n", error.what());
+    return 1;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "etalon_crosscheck: error: %s\n", error.what());
+    return 4;
+  }
+}
