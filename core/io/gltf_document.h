@@ -1,0 +1,92 @@
+// A glTF 2.0 document with its buffers: checked access, so that whoever walks it can only meet values that are there. Not for use outside core/io.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/io/inputs.h"
+
+namespace etalon::io {
+
+/// A value of the document that knows its path; every accessor throws InputError "FILE: PATH: what, expected, got" instead of guessing.
+class JsonRef {
+ public:
+  JsonRef(const nlohmann::json& value, std::string path, const std::string& file) : value_(&value), path_(std::move(path)), file_(&file) {}
+
+  [[nodiscard]] bool has(const char* key) const { return value_->is_object() && value_->contains(key); }
+  [[nodiscard]] JsonRef at(const char* key) const;
+  [[nodiscard]] JsonRef at(std::uint64_t index) const;
+  [[nodiscard]] std::size_t size() const;  ///< of an array
+  [[nodiscard]] std::uint64_t integer() const;
+  [[nodiscard]] std::uint64_t integer_or(const char* key, std::uint64_t fallback) const { return has(key) ? at(key).integer() : fallback; }
+  [[nodiscard]] double real() const;
+  [[nodiscard]] std::string text() const;
+  [[nodiscard]] std::string text_or(const char* key, const char* fallback) const { return has(key) ? at(key).text() : fallback; }
+  [[nodiscard]] bool true_at(const char* key) const;
+  [[nodiscard]] const std::string& path() const { return path_; }
+  [[noreturn]] void fail(const std::string& what) const;
+
+ private:
+  const nlohmann::json* value_;
+  std::string path_;
+  const std::string* file_;
+};
+
+/// `count` elements of `component_count` numbers each, all of them inside the buffer.
+struct GltfAccessor {
+  std::span<const std::byte> bytes;
+  std::size_t stride_bytes = 0;
+  std::size_t count = 0;
+  std::uint64_t component_type = 0;
+  int component_count = 0;
+  bool normalized = false;
+  std::string path;
+
+  /// Component `c` of element `i` as float32; normalised integers divided by their maximum.
+  [[nodiscard]] float real(std::size_t i, int c) const;
+  /// Element `i` of an unsigned scalar accessor.
+  [[nodiscard]] std::uint32_t index(std::size_t i) const;
+};
+
+class GltfDocument {
+ public:
+  /// Parses a .glb container or plain .gltf JSON.
+  GltfDocument(const std::filesystem::path& path, const FileBytes& content);
+  GltfDocument(const GltfDocument&) = delete;
+  GltfDocument& operator=(const GltfDocument&) = delete;
+
+  [[nodiscard]] JsonRef root() const { return {json_, "glTF", file_}; }
+  [[nodiscard]] GltfAccessor accessor(std::uint64_t index);
+  [[nodiscard]] std::span<const std::byte> buffer_view(std::uint64_t index);
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::string_view split_container(std::span<const std::byte> content);
+  std::span<const std::byte> buffer(std::uint64_t index);
+
+  std::string file_;
+  std::filesystem::path folder_;
+  nlohmann::json json_;
+  std::optional<std::span<const std::byte>> binary_chunk_;
+  struct Buffer {
+    bool loaded = false;
+    FileBytes own;
+    std::span<const std::byte> bytes;
+  };
+  std::vector<Buffer> buffers_;
+};
+
+/// The bytes of a "data:…;base64,…" URI; nothing where `uri` is no such. InputError through `at` for malformed base64.
+[[nodiscard]] std::optional<FileBytes> decode_data_uri(const JsonRef& at, const std::string& uri);
+
+/// `uri` with its %XX decoded.
+[[nodiscard]] std::string percent_decoded(const std::string& uri);
+
+}  // namespace etalon::io

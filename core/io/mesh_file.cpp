@@ -1,0 +1,117 @@
+#include "core/io/mesh_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/base/error.h"
+#include "core/io/image_file.h"
+#include "core/io/input_error.h"
+#include "core/io/inputs.h"
+#include "core/io/mesh_formats.h"
+
+namespace etalon::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
+enum class MeshFormat { obj, ply, gltf };
+
+/// The format that the content shows without doubt, else `fallback`.
+MeshFormat format_of(std::string_view text, MeshFormat fallback) {
+  if (text.starts_with("ply\n") || text.starts_with("ply\r")) return MeshFormat::ply;
+  if (text.starts_with("glTF")) return MeshFormat::gltf;
+  return fallback;
+}
+
+void check_mesh(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials) {
+  const auto refuse = [&](const std::string& what) { throw WriteError(fmt::format("{}: cannot write: {}", path.string(), what)); };
+  if (mesh.faces.empty()) refuse("the mesh has no faces");
+  if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
+    refuse(fmt::format("colours: expected {}, got {}", mesh.positions.size(), mesh.colors.size()));
+  if (!mesh.face_materials.empty() && mesh.face_materials.size() != mesh.faces.size())
+    refuse(fmt::format("face materials: expected {}, got {}", mesh.faces.size(), mesh.face_materials.size()));
+  if (!materials.empty())
+    for (const std::uint32_t m : mesh.face_materials)
+      if (m >= materials.size()) refuse(fmt::format("face material: expected below {}, got {}", materials.size(), m));
+  for (const Wedge& w : mesh.wedges)
+    if (w.vertex.index >= mesh.positions.size())
+      refuse(fmt::format("wedge: vertex expected below {}, got {}", mesh.positions.size(), w.vertex.index));
+  for (const auto& f : mesh.faces)
+    for (const WedgeId w : f)
+      if (w.index >= mesh.wedges.size()) refuse(fmt::format("face: wedge expected below {}, got {}", mesh.wedges.size(), w.index));
+}
+
+}  // namespace
+
+LoadedModel read_mesh(const fs::path& path) {
+  const std::string extension = lower_extension(path);
+  MeshFormat expected = MeshFormat::obj;
+  if (extension == ".ply")
+    expected = MeshFormat::ply;
+  else if (extension == ".glb" || extension == ".gltf")
+    expected = MeshFormat::gltf;
+  else if (extension != ".obj")
+    fail_file(path.string(), fmt::format("mesh format: expected .obj, .ply, .glb or .gltf, got '{}'", printable(extension)));
+  const FileBytes content = read_file(path);
+  const MeshFormat format = format_of(content.text(), expected);
+  LoadedModel model;
+  switch (format) {
+    case MeshFormat::obj: model = read_obj(path, content); break;
+    case MeshFormat::ply: model = read_ply(path, content); break;
+    case MeshFormat::gltf: model = read_gltf(path, content); break;
+  }
+  if (format != expected)
+    model.notes.insert(model.notes.begin(), fmt::format("{}: read as {}, which is what the file holds", path.filename().string(),
+                                                        format == MeshFormat::ply ? "PLY" : "GLB"));
+  return model;
+}
+
+Image load_texture(const Material& material) {
+  if (!material.texture.empty()) return material.texture;
+  if (material.texture_path) return read_image(*material.texture_path);
+  return {};
+}
+
+void flip_v(Mesh& mesh) {
+  for (Wedge& w : mesh.wedges) w.uv.y = 1.0f - w.uv.y;
+}
+
+void write_mesh(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".obj" && extension != ".ply" && extension != ".glb")
+    throw WriteError(
+        fmt::format("{}: cannot write: mesh format: expected .obj, .ply or .glb, got '{}'", path.string(), printable(extension)));
+  check_mesh(path, mesh, materials);
+  if (extension == ".obj") return write_obj(path, mesh, materials);
+  if (extension == ".ply") return write_ply(path, mesh, materials);
+  write_glb(path, mesh, materials);
+}
+
+std::vector<TextureFile> texture_files(const fs::path& model_path, const std::vector<Material>& materials) {
+  std::vector<TextureFile> result(materials.size());
+  const auto embedded_count = std::count_if(materials.begin(), materials.end(), [](const Material& m) { return !m.texture.empty(); });
+  int number = 0;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const Material& m = materials[i];
+    const std::string stem = model_path.stem().string();
+    if (!m.texture.empty()) {
+      result[i] = {embedded_count == 1 ? stem + ".png" : fmt::format("{}_{}.png", stem, number++),
+                   encode_png(m.texture, model_path.string())};
+    } else if (m.texture_path) {
+      const fs::path folder = fs::absolute(model_path).parent_path();
+      result[i].name = fs::proximate(fs::absolute(*m.texture_path), folder).generic_string();
+    }
+  }
+  return result;
+}
+
+}  // namespace etalon::io

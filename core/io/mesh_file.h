@@ -1,0 +1,59 @@
+// Mesh files: Wavefront OBJ (+MTL), PLY, glTF 2.0 (.glb, .gltf).
+// Does not: subdivision surfaces, curves, points and lines, normals, animation, skins, shading beyond the base colour texture.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+#include "core/mesh/mesh.h"
+
+namespace etalon::io {
+
+struct Material {
+  std::string name;
+  std::optional<std::filesystem::path> texture_path;  ///< of an existing file beside the model, ready to open
+  Image texture;                                      ///< embedded in the model file (GLB), rows as everywhere; else empty
+};
+
+struct LoadedModel {
+  Mesh mesh;
+  std::vector<Material> materials;  ///< those that faces use, in order of first use; empty where the file names none
+  std::vector<std::string> notes;   ///< one line each: what was skipped or missing, and where
+};
+
+/// Reads the mesh at `path`; the extension must be .obj, .ply, .glb or .gltf (any case), the content decides where it says otherwise.
+///
+/// Common to all: polygons become fans around their first corner; every triangle of the file is kept, degenerate ones too; vertices keep
+/// the file's order (glTF, and PLY with texture coordinates per vertex: welded by equal position and colour); wedges are the different
+/// (vertex, uv) pairs in order of first use; colours in [0, 1] as stored, integers divided by their maximum in float32;
+/// double coordinates are rounded to float32. Faces without texture coordinates in a model that has some get (0, 0), with a note.
+/// - OBJ: v is up and stays. `v x y z r g b [a]` are colours. A missing material library or texture is a note.
+/// - PLY: texture coordinates s t | u v | texture_u texture_v of vertices, or a `texcoord` list of faces with `texnumber` and
+///   `comment TextureFile NAME`; v is up and stays. Element `tristrips` too.
+/// - glTF: v runs down there, so v = 1 − v_file, in float32 (exact for v_file in [0.5, 1], else rounded to a multiple of 2^-25).
+///   Node transforms are applied in double and rounded once; a mirrored one turns its triangles around. All meshes of the default scene
+///   are joined.
+///
+/// InputError ("FILE:LINE: …", "FILE: byte OFFSET: …" or "FILE: JSON-PATH: …") for anything missing, truncated, malformed, not finite,
+/// out of range, or without faces; no count of a header is believed before it is held against the size of the file.
+[[nodiscard]] LoadedModel read_mesh(const std::filesystem::path& path);
+
+/// The base colour texture of `material`: the embedded one, else read from texture_path, else an empty image.
+[[nodiscard]] Image load_texture(const Material& material);
+
+/// Replaces every v by 1 − v (float32, rounded): for files whose rows run the other way than their format says.
+void flip_v(Mesh& mesh);
+
+/// Writes .obj (+ .mtl, + .png per embedded texture), .ply (binary little-endian) or .glb, each file atomically, the model itself last.
+/// `materials` may be empty; otherwise every entry of mesh.face_materials must be below its size. Textures: an embedded image is
+/// written as STEM.png (several: STEM_0.png, …) or into the GLB; otherwise texture_path is named relative to the model's folder, and for
+/// GLB its file is embedded.
+/// Lossless: read_mesh gives back positions, colours, faces, corner uvs and materials bit by bit (wedges renumbered by first use), except
+/// that glTF rounds v as above and that glTF vertices of equal position and colour come back welded.
+/// WriteError where a file cannot be written, its extension is none of these, or the format cannot hold the mesh.
+void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials = {});
+
+}  // namespace etalon::io
