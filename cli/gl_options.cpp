@@ -1,0 +1,60 @@
+#include "cli/gl_options.h"
+
+#include <fmt/format.h>
+
+#include "cli/usage_error.h"
+
+#ifdef ETALON_HAVE_GPU
+#include "gpu/gl_renderer.h"
+#endif
+
+namespace etalon::cli {
+
+void add_gl_options(CLI::App& verb, GlOptions& options) {
+  verb.add_option("--context", options.context, "Where the OpenGL context comes from: auto, osmesa (egl: not in this version)")->type_name("KIND")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
+  verb.add_option("--driver", options.driver, "Mesa's rasterizer: llvmpipe, softpipe, default")->type_name("NAME")->check(CLI::IsMember({"llvmpipe", "softpipe", "default"}));
+}
+
+#ifdef ETALON_HAVE_GPU
+
+namespace {
+
+gpu::Driver driver_of(const std::string& name) {
+  if (name == "llvmpipe") return gpu::Driver::llvmpipe;
+  if (name == "softpipe") return gpu::Driver::softpipe;
+  return gpu::Driver::device_default;
+}
+
+// Bounds were derived for llvmpipe only; any other device gets their shape with room, and is not called proven.
+validation::DeviceModel model_of(const gpu::DeviceInfo& device) {
+  if (device.renderer.rfind("llvmpipe", 0) == 0) return validation::llvmpipe_model();
+  return validation::measured_model(device.name(), 4, "llvmpipe's bounds times 4, not derived for this device");
+}
+
+}  // namespace
+
+OpenedDevice open_device(const GlOptions& options, int threads) {
+  if (options.context == "egl") throw UsageError("--context: egl is not in this version, use osmesa");
+  OpenedDevice opened;
+  try {
+    auto renderer = std::make_unique<gpu::GlRenderer>(gpu::ContextOptions{.driver = driver_of(options.driver), .threads = threads > 0 ? threads : -1, .library_path = ""});
+    opened.model = model_of(renderer->device());
+    opened.renderer = std::move(renderer);
+  } catch (const UnavailableError& error) {
+    opened.unavailable = error.what();
+  }
+  return opened;
+}
+
+#else
+
+OpenedDevice open_device(const GlOptions& options, int) {
+  if (options.context == "egl") throw UsageError("--context: egl is not in this version, use osmesa");
+  OpenedDevice opened;
+  opened.unavailable = "this build has no OpenGL side (ETALON_GPU=OFF)";
+  return opened;
+}
+
+#endif
+
+}  // namespace etalon::cli

@@ -1,0 +1,32 @@
+// The GL side of the command line: --context, --driver, and the device they lead to.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "core/draw/renderer.h"
+#include "validation/bounds.h"
+
+namespace etalon::cli {
+
+struct GlOptions {
+  std::string context = "auto";
+  std::string driver = "default";
+};
+
+void add_gl_options(CLI::App& verb, GlOptions& options);
+
+/// A device, or why there is none.
+struct OpenedDevice {
+  std::unique_ptr<Renderer> renderer;
+  validation::DeviceModel model;
+  std::string unavailable;  ///< one line; empty where renderer is set
+};
+
+/// Never throws for a missing device; UsageError for --context egl, which this version does not have.
+/// `threads`: of the device, 0 for its own choice.
+[[nodiscard]] OpenedDevice open_device(const GlOptions& options, int threads);
+
+}  // namespace etalon::cli

@@ -1,0 +1,71 @@
+#include "cli/view_option.h"
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/usage_error.h"
+#include "core/base/error.h"
+#include "core/io/inputs.h"
+
+namespace etalon::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+bool is_built_in(const std::string& text) {
+  if (text == "front" || text == "fit") return true;
+  const std::size_t slash = text.find("/24");
+  if (slash == std::string::npos || slash + 3 != text.size()) return false;
+  int index = -1;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + slash, index);
+  return error == std::errc() && end == text.data() + slash && index >= 0 && index < 24;
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& what) { throw InputError(fmt::format("{}: {}", file, what)); }
+
+double number(const Json& document, const std::string& file, const char* key) {
+  if (!document.contains(key) || !document[key].is_number()) refuse(file, fmt::format("'{}': expected a number", key));
+  const double value = document[key].get<double>();
+  if (!std::isfinite(value)) refuse(file, fmt::format("'{}': expected a finite number", key));
+  return value;
+}
+
+Vec3d vector3(const Json& document, const std::string& file, const char* key) {
+  if (!document.contains(key) || !document[key].is_array() || document[key].size() != 3) refuse(file, fmt::format("'{}': expected three numbers", key));
+  Vec3d result{0, 0, 0};
+  for (int i = 0; i < 3; ++i) {
+    const Json& item = document[key][static_cast<std::size_t>(i)];
+    if (!item.is_number()) refuse(file, fmt::format("'{}': expected three numbers", key));
+    result[i] = item.get<double>();
+  }
+  return result;
+}
+
+Camera read_camera(const std::string& file) {
+  const io::FileBytes bytes = io::read_file(file);
+  const Json document = Json::parse(bytes.text().begin(), bytes.text().end(), nullptr, false);
+  if (document.is_discarded() || !document.is_object()) refuse(file, "expected a JSON object (etalon/view/1)");
+  if (document.value("schema", Json()) != "etalon/view/1") refuse(file, "'schema': expected \"etalon/view/1\"");
+  Camera camera;
+  camera.eye = vector3(document, file, "eye");
+  camera.target = vector3(document, file, "target");
+  camera.up = vector3(document, file, "up");
+  camera.tan_half_fov_y = number(document, file, "tan_half_fov_y");
+  camera.near = number(document, file, "near");
+  camera.far = number(document, file, "far");
+  return camera;
+}
+
+}  // namespace
+
+validation::NamedView parse_view(const std::string& text) {
+  if (is_built_in(text)) return {text, {}};
+  if (!std::filesystem::exists(text)) throw UsageError(fmt::format("--view: expected front, fit, 0/24 to 23/24 or a file, got '{}'", text));
+  return {std::filesystem::path(text).filename().string(), read_camera(text)};
+}
+
+}  // namespace etalon::cli

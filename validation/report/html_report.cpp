@@ -1,0 +1,185 @@
+#include "validation/report/html_report.h"
+
+#include <array>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/atomic_file.h"
+#include "raster/cpu_renderer.h"
+#include "validation/report/html_case.h"
+#include "validation/report/html_text.h"
+#include "validation/report/json_report.h"
+#include "validation/report/page_assets.h"
+#include "validation/texel_explainer.h"
+
+namespace etalon::validation {
+namespace {
+
+struct Banner {
+  const char* seal;
+  std::string headline;
+  std::string sentence;
+};
+
+Banner banner(const VerifyResult& result) {
+  const ClassTally total = result.total();
+  switch (verdict(result)) {
+    case Verdict::agreed:
+      return {"=", "Every texel is explained.",
+              fmt::format("{} texels drawn by the exact rasterizer and by OpenGL: {} are the same bytes, each of the other {} is a legal choice of the device, and none is unexplained.{}",
+                          grouped(total.texels), share(total.identical, total.texels), grouped(total.texels - total.identical),
+                          result.bounds_measured ? " The device's bounds were measured, not derived: this is agreement, not proof." : "")};
+    case Verdict::not_compared:
+      return {"–", "Nothing was compared.", result.gl_unavailable.empty() ? "No job could be done on this input." : "OpenGL is not available: " + result.gl_unavailable};
+    case Verdict::failed:
+      return {"≠", fmt::format("{} texels are unexplained.", grouped(total.unexplained)),
+              fmt::format("Of {} texels compared; one of the two renderers is wrong there. The diagnosis and the texels are below.", grouped(total.texels))};
+  }
+  return {};
+}
+
+std::string tally_cell(const std::string& css, const std::string& name, std::uint64_t count, std::uint64_t all) {
+  return fmt::format("<div><dt class=\"{}\"><i class=\"swatch\"></i>{}</dt><dd>{}<small>{}</small></dd></div>", css, name, grouped(count), all == 0 ? "–" : share(count, all));
+}
+
+std::string class_bar(const ClassTally& t) {
+  const std::array<std::pair<const char*, std::uint64_t>, kClassCount> parts{
+      {{"identical", t.identical}, {"rounding", t.rounding}, {"tie", t.tie}, {"unbounded", t.unbounded}, {"unexplained", t.unexplained}}};
+  std::string bar = "<div class=\"bar\" aria-hidden=\"true\">";
+  for (const auto& [css, count] : parts) {
+    if (count > 0) bar += fmt::format("<i class=\"{}\" style=\"flex:{:.6f} 0 auto\"></i>", css, static_cast<double>(count) / static_cast<double>(t.texels));
+  }
+  return bar + "</div>";
+}
+
+std::string verdict_section(const VerifyResult& result) {
+  const ClassTally t = result.total();
+  const Banner words = banner(result);
+  std::string html = fmt::format("<section class=\"verdict {}\" aria-label=\"Verdict\"><div class=\"verdict-head\"><div class=\"seal\" aria-hidden=\"true\">{}</div><div><strong>{}</strong><p>{}</p></div></div>",
+                                 to_string(verdict(result)), words.seal, escaped(words.headline), words.sentence);
+  if (t.texels > 0) {
+    html += class_bar(t) + "<dl class=\"tally\" style=\"margin:0\">" + tally_cell("identical", "identical", t.identical, t.texels) + tally_cell("rounding", "rounding", t.rounding, t.texels) +
+            tally_cell("tie", "tie", t.tie, t.texels);
+    html += tally_cell("unbounded", "unbounded", t.unbounded, t.texels) + tally_cell("unexplained", "unexplained", t.unexplained, t.texels) + "</dl>";
+  }
+  return html + "</section>";
+}
+
+std::string number_cell(std::uint64_t count, bool alarm = false) {
+  const char* css = count == 0 ? "n zero" : alarm ? "n alarm" : "n";
+  return fmt::format("<td class=\"{}\">{}</td>", css, grouped(count));
+}
+
+std::string tally_cells(const ClassTally& t) {
+  return number_cell(t.texels) + number_cell(t.identical) + number_cell(t.rounding) + number_cell(t.tie) + number_cell(t.unbounded) + number_cell(t.unexplained, true);
+}
+
+std::string class_table(const VerifyResult& result) {
+  std::string html = "<div class=\"table\"><table><caption class=\"visually-hidden\">Texels by class</caption><thead><tr><th scope=\"col\">job</th><th scope=\"col\">scene</th>"
+                     "<th class=\"n\" scope=\"col\">texels</th>";
+  for (const char* name : {"identical", "rounding", "tie", "unbounded", "unexplained"}) html += fmt::format("<th class=\"n\" scope=\"col\">{}</th>", class_chip(name));
+  html += "</tr></thead><tbody>";
+  for (std::size_t j = 0; j < result.jobs.size(); ++j) {
+    const JobResult& job = result.jobs[j];
+    if (!job.skipped.empty()) html += fmt::format("<tr><td>{}</td><td class=\"skip\" colspan=\"7\">skipped: {}</td></tr>", escaped(job.job), escaped(job.skipped));
+    for (std::size_t i = 0; i < job.cases.size(); ++i) {
+      html += fmt::format("<tr><td>{}</td><td><a href=\"#case-{}-{}\">{}</a></td>{}</tr>", i == 0 ? escaped(job.job) : "", j, i, escaped(job.cases[i].name()), tally_cells(job.cases[i].tally));
+    }
+  }
+  return html + fmt::format("</tbody><tfoot><tr class=\"total\"><th scope=\"row\" colspan=\"2\">total</th>{}</tr></tfoot></table></div>", tally_cells(result.total()));
+}
+
+std::string job_sections(const VerifyResult& result) {
+  std::string html;
+  for (std::size_t j = 0; j < result.jobs.size(); ++j) {
+    const JobResult& job = result.jobs[j];
+    if (job.cases.empty()) continue;
+    const char* lead = job.job == "indexed" ? "The texture is read through an indexing map: a first look-up gives the coordinate of a second one."
+                                            : "The textured model, in perspective, with depth test.";
+    html += fmt::format("<h2 id=\"job-{0}\">{0}</h2><p class=\"lede\">{1}</p>", escaped(job.job), lead);
+    for (std::size_t i = 0; i < job.cases.size(); ++i) html += case_article(job.cases[i], fmt::format("case-{}-{}", j, i));
+  }
+  return html;
+}
+
+const char* kMeanings = R"(<h2>What the classes mean</h2><dl class="meaning">
+<dt class="identical"><i class="swatch"></i> identical</dt><dd>The same bytes.</dd>
+<dt class="rounding"><i class="swatch"></i> rounding</dt><dd>The same decisions; the device's value is a legal rounding of some number within its error bound of the exact one.</dd>
+<dt class="tie"><i class="swatch"></i> tie</dt><dd>The device chose the neighbouring texel or the other of two depths. The exact margin of that decision lies within the bound, and the value is the one that the other choice gives: proven by redrawing it.</dd>
+<dt class="unbounded"><i class="swatch"></i> unbounded</dt><dd>The device's own arithmetic gives no useful bound here: slivers on which its float32 setup degenerates. Counted apart, printed even when 0.</dd>
+<dt class="unexplained"><i class="swatch"></i> unexplained</dt><dd>Anything else: a defect of one side. A single one fails the check. Coverage has no tolerance at all: any difference in it ends up here.</dd>
+</dl>)";
+
+std::string inputs_section(const VerifyResult& result) {
+  std::string html = "<h2>Inputs</h2><div class=\"table\"><table><thead><tr><th scope=\"col\">role</th><th scope=\"col\">name</th><th scope=\"col\">sha256</th></tr></thead><tbody>";
+  for (const VerifyInput& input : result.inputs) {
+    html += fmt::format("<tr><td>{}</td><td>{}{}</td><td class=\"sha\">{}</td></tr>", escaped(input.role), escaped(input.name),
+                        input.attribution.empty() ? "" : "<br><span class=\"soft\">" + escaped(input.attribution) + "</span>", input.sha256);
+  }
+  html += "</tbody></table></div>";
+  if (result.notes.empty()) return html;
+  html += "<div class=\"callout quiet\">";
+  for (std::size_t i = 0; i < result.notes.size(); ++i) html += (i > 0 ? "<br>" : "") + escaped(result.notes[i]);
+  return html + "</div>";
+}
+
+std::string row(const std::string& name, const std::string& value) { return fmt::format("<dt>{}</dt><dd>{}</dd>", name, escaped(value)); }
+
+std::string run_section(const VerifyResult& result, const RunInfo& run) {
+  return "<h2>This run</h2><dl class=\"env\">" + row("etalon", fmt::format("{}, contract {}", run.version, raster::kRasterContractVersion)) + row("exact side", result.cpu_name) +
+         row("device", result.gl_name.empty() ? "none: " + result.gl_unavailable : result.gl_name) + row("bounds", result.bounds_origin) + row("threads", std::to_string(run.threads)) +
+         row("time", fmt::format("{:.1f} s", run.seconds)) + row("memory", fmt::format("{:.0f} MiB at most", static_cast<double>(run.peak_bytes) / 1048576)) + "</dl>";
+}
+
+std::string attributions(const VerifyResult& result) {
+  std::string html;
+  for (const VerifyInput& input : result.inputs) {
+    if (!input.attribution.empty() && html.find(escaped(input.attribution)) == std::string::npos) html += "<p>" + escaped(input.name) + ": " + escaped(input.attribution) + ".</p>";
+  }
+  return html;
+}
+
+// A script element ends at the first "</": JSON may write it "<\/".
+std::string json_for_script(std::string text) {
+  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3)) text.replace(at, 2, "<\\/");
+  return text;
+}
+
+}  // namespace
+
+std::string verify_page(const VerifyResult& result, const RunInfo& run) {
+  std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">";
+  html += "<title>etalon: " + escaped(banner(result).headline) + "</title><style>" + kPageCss + "</style></head><body>";
+  html += "<header class=\"masthead\"><div class=\"graduation\" style=\"max-width:none;padding:0\" aria-hidden=\"true\"></div><div><h1>étalon</h1><p class=\"lede\">Two renderers, one scene, every texel accounted for.</p>"
+          "<button id=\"theme\" type=\"button\" hidden>light / dark</button></div></header><main>";
+  html += verdict_section(result) + class_table(result) + job_sections(result) + kMeanings + inputs_section(result) + run_section(result, run);
+  html += "</main><footer><div class=\"graduation\" style=\"max-width:none;padding:0\" aria-hidden=\"true\"></div><div>" + attributions(result) +
+          "<p>The same figures for programs: verify.json and classes.csv beside this page. Row 0 of an image is its lowest.</p></div></footer>";
+  html += "<script type=\"application/json\" id=\"etalon-verify\">" + json_for_script(to_text(verify_document(result, run))) + "</script><script>" + kPageJs + "</script></body></html>\n";
+  return html;
+}
+
+std::filesystem::path write_verify_report(const std::filesystem::path& folder, const VerifyResult& result, const RunInfo& run) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw WriteError(fmt::format("{}: {}", folder.string(), error ? error.message() : "is not a folder"));
+  }
+  const std::filesystem::path page = folder / "index.html";
+  io::write_files({{folder / "verify.json", to_text(verify_document(result, run))}, {folder / "classes.csv", verify_csv(result)}, {page, verify_page(result, run)}});
+  return page;
+}
+
+std::string file_url(const std::filesystem::path& path) {
+  std::string url = "file://";
+  for (const char c : std::filesystem::absolute(path).lexically_normal().string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z') || std::string_view("-._~/!$&'()*+,;=:@").find(c) != std::string_view::npos;
+    url += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return url;
+}
+
+}  // namespace etalon::validation

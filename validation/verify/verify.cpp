@@ -1,0 +1,151 @@
+#include "validation/verify/verify.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "validation/verify/verify_case.h"
+#include "validation/verify/verify_maps.h"
+
+namespace etalon::validation {
+namespace {
+
+/// A scene that is still to be drawn.
+struct Plan {
+  const VerifyModel* model = nullptr;
+  NamedView view;
+  std::string sampling;
+  std::string description;
+  std::vector<Material> materials;
+};
+
+std::vector<Material> with_filter(std::vector<Material> materials, Filter filter) {
+  for (Material& material : materials) material.sampler.filter = filter;
+  return materials;
+}
+
+bool has_texture(const std::vector<Material>& materials) {
+  return std::any_of(materials.begin(), materials.end(), [](const Material& material) { return material.texture != nullptr; });
+}
+
+std::vector<Plan> plan_render(const VerifyModel& model, const VerifyOptions& options) {
+  std::vector<Plan> plans;
+  for (const NamedView& view : options.views) {
+    if (!has_texture(model.materials)) {
+      plans.push_back({&model, view, "vertex colours", "Interpolated vertex colours.", model.materials});
+      continue;
+    }
+    plans.push_back({&model, view, "nearest", "The texture by nearest lookup.", with_filter(model.materials, Filter::nearest)});
+    plans.push_back({&model, view, "linear", "The texture by linear filtering.", with_filter(model.materials, Filter::linear)});
+  }
+  return plans;
+}
+
+// One map per material, of its texture's size: the identity must name every texel.
+std::vector<Material> through_map(const std::vector<Material>& materials, std::shared_ptr<const Image> (*make_map)(int, int), Filter map_filter) {
+  std::vector<Material> mapped = materials;
+  for (Material& material : mapped) {
+    if (!material.texture) material.texture = checkerboard();
+    material.sampler.filter = Filter::nearest;
+    material.indexing_map = make_map(material.texture->width(), material.texture->height());
+    material.map_sampler = {map_filter, material.sampler.wrap_u, material.sampler.wrap_v};
+  }
+  return mapped;
+}
+
+std::vector<Plan> plan_indexed(const VerifyModel& model, const VerifyOptions& options) {
+  if (!model.mesh.has_uv || options.views.empty()) return {};
+  return {{&model, options.views.front(), "swirled float32 map", "Coordinates from an rg float32 map that swirls the texture, filtered linearly; then the texture by nearest lookup.",
+           through_map(model.materials, swirled_map, Filter::linear)},
+          {&model, options.views.front(), "identity unorm16 map", "Coordinates from an rg unorm16 map that holds its own texel centres, by nearest lookup; then the texture likewise.",
+           through_map(model.materials, identity_map, Filter::nearest)}};
+}
+
+struct JobPlan {
+  std::string job;
+  std::vector<Plan> plans;
+  std::string skipped;
+};
+
+JobPlan plan_job(const std::string& job, const std::vector<VerifyModel>& models, const VerifyOptions& options) {
+  JobPlan result{job, {}, ""};
+  if (job != "render" && job != "indexed") throw InputError(fmt::format("verify: expected a job of render, indexed, got '{}'", job));
+  for (const VerifyModel& model : models) {
+    const std::vector<Plan> plans = job == "render" ? plan_render(model, options) : plan_indexed(model, options);
+    result.plans.insert(result.plans.end(), plans.begin(), plans.end());
+  }
+  if (result.plans.empty()) result.skipped = "no texture coordinates (try a model that has them, or `etalon make head -o head.obj`)";
+  return result;
+}
+
+Frame frame_for(const VerifyOptions& options, const VerifyDevice& device) {
+  Frame frame;
+  frame.width = options.width;
+  frame.height = options.height;
+  frame.state = device.renderer != nullptr ? device.renderer->supported_state(options.state) : options.state;
+  TargetSpec color{TargetContent::color, kRgba8, {0.094f, 0.102f, 0.125f, 1}};
+  frame.targets = {color, {TargetContent::triangle_id, kR32ui, {}}, {TargetContent::depth, kR32f, {}}};
+  return frame;
+}
+
+CaseResult run_case(const std::string& job, const Plan& plan, const Frame& frame, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options) {
+  CaseResult item;
+  item.job = job;
+  item.model = plan.model->name;
+  item.view = plan.view.name;
+  item.sampling = plan.sampling;
+  item.description = plan.description;
+  const Camera camera = plan.view.camera ? *plan.view.camera : named_view(plan.view.name, bounding_box(plan.model->mesh), frame.width, frame.height);
+  const DrawList list = make_scene(plan.model->mesh, plan.materials, camera, frame);
+  compare_case(item, list, frame, exact, device, options);
+  return item;
+}
+
+void describe_sides(VerifyResult& result, const Renderer& exact, const VerifyDevice& device) {
+  result.cpu_name = exact.name();
+  if (device.renderer == nullptr) {
+    result.gl_unavailable = device.unavailable;
+    return;
+  }
+  result.gl_name = device.renderer->name();
+  result.bounds_origin = fmt::format("{}: {}", to_string(device.model.origin), device.model.valid_for);
+  result.bounds_measured = device.model.origin == BoundOrigin::measured;
+}
+
+}  // namespace
+
+const std::vector<std::string>& verify_jobs() {
+  static const std::vector<std::string> kJobs{"render", "indexed"};
+  return kJobs;
+}
+
+VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options) {
+  VerifyResult result;
+  describe_sides(result, exact, device);
+  for (const VerifyModel& model : models) {
+    result.inputs.insert(result.inputs.end(), model.inputs.begin(), model.inputs.end());
+    for (const std::string& note : model.notes) result.notes.push_back(fmt::format("{}: {}", model.name, note));
+  }
+  std::vector<JobPlan> jobs;
+  int total = 0;
+  for (const std::string& job : options.jobs) {
+    jobs.push_back(plan_job(job, models, options));
+    total += static_cast<int>(jobs.back().plans.size());
+  }
+  const Frame frame = frame_for(options, device);
+  int done = 0;
+  for (const JobPlan& job : jobs) {
+    JobResult job_result{job.job, job.skipped, {}};
+    for (const Plan& plan : job.plans) {
+      if (options.on_progress) options.on_progress(fmt::format("{}: {}, {}, {}", job.job, plan.model->name, plan.view.name, plan.sampling), done, total);
+      job_result.cases.push_back(run_case(job.job, plan, frame, exact, device, options));
+      ++done;
+      if (options.on_case) options.on_case(job_result.cases.back());
+    }
+    result.jobs.push_back(std::move(job_result));
+  }
+  return result;
+}
+
+}  // namespace etalon::validation

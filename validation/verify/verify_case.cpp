@@ -1,0 +1,162 @@
+#include "validation/verify/verify_case.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "validation/texel_diff.h"
+#include "validation/verify/pictures.h"
+
+namespace etalon::validation {
+namespace {
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Both sides of a scene, and what they look like.
+struct Pair {
+  std::vector<Image> cpu, gl;                  // one per target; gl empty without a device
+  std::vector<Image> cpu_picture, gl_picture;  // full size
+};
+
+void draw_both(CaseResult& item, Pair& pair, const DrawList& list, const Frame& frame, Renderer& exact, const VerifyDevice& device) {
+  const Stopwatch cpu;
+  pair.cpu = exact.render(list, frame);
+  item.cpu_seconds = cpu.seconds();
+  if (device.renderer == nullptr) return;
+  const Stopwatch gl;
+  pair.gl = device.renderer->render(list, frame);
+  item.gl_seconds = gl.seconds();
+}
+
+ClassTally tally_of(const ClassCounts& counts) {
+  ClassTally tally;
+  tally.texels = counts.total();
+  tally.identical = counts[TexelClass::identical];
+  tally.rounding = counts[TexelClass::rounding];
+  tally.tie = counts[TexelClass::tie];
+  tally.unbounded = counts[TexelClass::unbounded];
+  tally.unexplained = counts[TexelClass::unexplained];
+  return tally;
+}
+
+std::string diagnosis_of(const DiffResult& diff) {
+  static const std::array<const char*, kCauseCount> kPatterns{
+      "cause not told apart", "coverage: one side draws where the other does not (fill rule, snap, viewport, or a missing triangle)",
+      "depth order: another triangle is in front, by more than the depth bound", "texel choice: another texel was fetched, by more than the coordinate bound (half-texel shift, wrap, flipped v)",
+      "value: the right texel, but no legal rounding of its value (wrong byte, filter, or storage rounding)"};
+  std::string text;
+  for (std::size_t cause = 0; cause < kCauseCount; ++cause) {
+    if (diff.unexplained_by[cause] == 0) continue;
+    text += fmt::format("{}{} texels: {}", text.empty() ? "" : "; ", diff.unexplained_by[cause], kPatterns[cause]);
+  }
+  return text.empty() ? text : text + ".";
+}
+
+// The targets in which the two sides differ at a texel; all of them where none does.
+std::string side_text(const Pair& pair, const std::vector<Image>& side, const std::vector<TargetSpec>& targets, int x, int y) {
+  std::string text;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const std::size_t size = static_cast<std::size_t>(bytes_per_texel(pair.cpu[t].format()));
+    if (std::memcmp(pair.cpu[t].texel(x, y), pair.gl[t].texel(x, y), size) == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(targets[t].content), texel_text(side[t], x, y));
+  }
+  return text;
+}
+
+WorstTexel worst_texel(const TexelReport& report, const Pair& pair, const std::vector<TargetSpec>& targets) {
+  WorstTexel worst;
+  worst.x = report.x;
+  worst.y = report.y;
+  worst.texel_class = to_string(report.verdict.texel_class);
+  worst.cpu_value = side_text(pair, pair.cpu, targets, report.x, report.y);
+  worst.gl_value = side_text(pair, pair.gl, targets, report.x, report.y);
+  worst.explanation = report.sentence;
+  const auto shown = static_cast<std::size_t>(std::max(report.verdict.target, 0));
+  worst.cpu_crop = crop(pair.cpu_picture[shown], report.x, report.y, kCropSize);
+  worst.gl_crop = crop(pair.gl_picture[shown], report.x, report.y, kCropSize);
+  return worst;
+}
+
+void classify(CaseResult& item, const Pair& pair, const DrawList& list, const Frame& frame, const VerifyDevice& device, const VerifyOptions& options, int reach) {
+  const DiffResult diff = diff_images(list, frame, device.model, pair.cpu, pair.gl, {.worst_count = options.worst_count, .keep_class_image = true});
+  item.tally = tally_of(diff.counts);
+  item.diagnosis = diagnosis_of(diff);
+  for (const TexelReport& report : diff.worst) item.worst.push_back(worst_texel(report, pair, frame.targets));
+  item.class_picture = reduced(class_picture(pair.cpu_picture.front(), diff.class_image, reach), options.picture_px);
+}
+
+void picture_targets(Pair& pair, const Frame& frame) {
+  for (std::size_t t = 0; t < frame.targets.size(); ++t) {
+    const bool is_depth = frame.targets[t].content == TargetContent::depth;
+    const ValueRange range = is_depth ? drawn_range(pair.cpu[t]) : ValueRange{};
+    pair.cpu_picture.push_back(picture_of(pair.cpu[t], range.low, range.high));
+    if (!pair.gl.empty()) pair.gl_picture.push_back(picture_of(pair.gl[t], range.low, range.high));
+  }
+}
+
+TargetResult measure_target(const Pair& pair, std::size_t t, const TargetSpec& spec, int picture_px, int reach) {
+  TargetResult target;
+  target.content = to_string(spec.content);
+  target.format = to_string(spec.format);
+  target.cpu_sha256 = pair.cpu[t].sha256();
+  target.cpu_picture = reduced(pair.cpu_picture[t], picture_px);
+  if (pair.gl.empty()) return target;
+  target.gl_sha256 = pair.gl[t].sha256();
+  target.difference = measure_difference(pair.cpu[t], pair.gl[t]);
+  if (target.difference->identical) return target;
+  target.gl_picture = reduced(pair.gl_picture[t], picture_px);
+  target.error_picture = reduced(error_picture(pair.cpu[t], pair.gl[t], reach), picture_px);
+  return target;
+}
+
+std::string channel_text(const Image& image, int x, int y, int c) {
+  switch (image.format().type) {
+    case ChannelType::unorm8:
+    case ChannelType::srgb8: return std::to_string(image.channels<std::uint8_t>(x, y)[c]);
+    case ChannelType::unorm16: return std::to_string(image.channels<std::uint16_t>(x, y)[c]);
+    case ChannelType::half: return fmt::format("{}", half_value(image.channels<std::uint16_t>(x, y)[c]));
+    case ChannelType::float32: return fmt::format("{}", image.channels<float>(x, y)[c]);
+    case ChannelType::uint32: {
+      const std::uint32_t id = image.channels<std::uint32_t>(x, y)[c];
+      return id == kNoTriangle ? "-" : std::to_string(id);
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string texel_text(const Image& image, int x, int y) {
+  std::string text;
+  for (int c = 0; c < image.format().channels; ++c) text += (c > 0 ? " " : "") + channel_text(image, x, y, c);
+  return text;
+}
+
+void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options) {
+  ETALON_CHECK(!frame.targets.empty(), "a scene without targets");
+  item.width = frame.width;
+  item.height = frame.height;
+  item.triangles = list.triangles.size();
+  Pair pair;
+  draw_both(item, pair, list, frame, exact, device);
+
+  const Stopwatch compare;
+  // A mark must survive the reduction of its picture, which keeps one texel of `step`.
+  const int step = (std::max(frame.width, frame.height) + options.picture_px - 1) / options.picture_px;
+  const int reach = std::max(step, 1);
+  picture_targets(pair, frame);
+  if (device.renderer != nullptr) classify(item, pair, list, frame, device, options, reach);
+  for (std::size_t t = 0; t < frame.targets.size(); ++t) item.targets.push_back(measure_target(pair, t, frame.targets[t], options.picture_px, reach));
+  item.compare_seconds = compare.seconds();
+}
+
+}  // namespace etalon::validation

@@ -1,0 +1,16 @@
+// One scene of `verify`: drawn twice, compared, pictured.
+#pragma once
+
+#include "core/draw/draw_list.h"
+#include "validation/verify/verify.h"
+
+namespace etalon::validation {
+
+/// Fills the measurements, classes and pictures of `item`, whose names are set already. `frame.state` must be one the device draws with.
+/// UnavailableError: the device cannot draw this frame.
+void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options);
+
+/// The channels of texel (x, y) as stored: "120 44 31 255", "0.5123458", "-" for no triangle.
+[[nodiscard]] std::string texel_text(const Image& image, int x, int y);
+
+}  // namespace etalon::validation
