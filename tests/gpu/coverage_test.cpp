@@ -102,6 +102,17 @@ TEST_CASE("triangles that reach to the edge of the guard are not clipped") {
   CHECK(count_bad(*renderer, far_out, {8000, 16, 1, true}, 8, 12, rng) == 0);
 }
 
+TEST_CASE("vertices at depth 0 and 1 are not clipped where z is rounded past w") {
+  GlRenderer* renderer = renderer_or_skip("gpu depth clamp");
+  if (renderer == nullptr) return;
+  Rng rng(4);
+  Frame frame = frame_of(*renderer, 128, 128, 64, {kIdTarget});
+  frame.state.depth_test = false;
+  DrawList list = random_triangles(2000, frame, {12, 0, 1, true}, rng);
+  for (RasterVertex& v : list.vertices) v.z = rng.coin() ? 1.0f : rng.coin() ? 0.0f : 1.0f - 0x1p-24f;
+  CHECK(count_different(renderer->render(list, frame).front(), reference_ids(list, frame)) == 0);
+}
+
 TEST_CASE("zero area draws nothing and culling drops one orientation") {
   GlRenderer* renderer = renderer_or_skip("gpu culling");
   if (renderer == nullptr) return;
@@ -158,6 +169,15 @@ TEST_CASE("ids of a list longer than one vertex buffer") {
       vertices.push_back(vertex_at(column + 0.5, row + 0.875));
     }
   }
-  const DrawList list = triangle_list(std::move(vertices));
+  DrawList list = triangle_list(std::move(vertices));
+  CHECK(count_different(renderer->render(list, frame).front(), expected) == 0);
+  // Draws that end inside a buffer, at its border, that span buffers, and an empty one.
+  list.draws.clear();
+  std::uint32_t next = 0;
+  for (const std::uint32_t count : {10u, 65526u, 0u, 1u, 131071u, 8192u}) {
+    list.draws.push_back({.first_triangle = next, .triangle_count = count});
+    next += count;
+  }
+  REQUIRE(next == list.triangles.size());
   CHECK(count_different(renderer->render(list, frame).front(), expected) == 0);
 }

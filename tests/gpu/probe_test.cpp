@@ -1,8 +1,6 @@
 // The device describes itself, and drawing shows what it does not say.
 #include "gpu/probe.h"
 
-#include <cstdlib>
-
 #include <doctest/doctest.h>
 
 #include "tests/gpu/gl_fixture.h"

@@ -1,6 +1,7 @@
 // Targets: depth and its order, storage, clears, barycentrics and coordinates, several in one pass.
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include <doctest/doctest.h>
 
@@ -167,6 +168,26 @@ TEST_CASE("barycentrics and coordinates belong to the list's vertex order, whate
     CHECK(images[1].channels<float>(3, 5)[0] == x);
     CHECK(images[1].channels<float>(3, 5)[1] == y);
   }
+}
+
+TEST_CASE("attributes enter through canonical()") {
+  GlRenderer* renderer = renderer_or_skip("gpu canonical attributes");
+  if (renderer == nullptr) return;
+  const Frame frame =
+      frame_of(*renderer, 16, 16, 16, {{TargetContent::color, kRgba32f, {1, 1, 1, 1}}, {TargetContent::coordinate, kRg32f, {1, 1, 0, 0}}});
+  const float below = 0x1.fffffep-41f;
+  std::vector<RasterVertex> vertices;
+  for (const auto& [x, y] : {std::pair{0, 0}, std::pair{32, 0}, std::pair{0, 32}}) {
+    vertices.push_back(vertex_at(x, y, {below, -0.0f}, {-below, 0x1p-40f, -0.0f, -0x1p-40f}));
+  }
+  const std::vector<Image> images = renderer->render(triangle_list(std::move(vertices)), frame);
+  const auto bits = [](const float& value) { return std::bit_cast<std::uint32_t>(value); };
+  CHECK(bits(images[0].channels<float>(4, 4)[0]) == 0);
+  CHECK(images[0].channels<float>(4, 4)[1] == 0x1p-40f);
+  CHECK(bits(images[0].channels<float>(4, 4)[2]) == 0);
+  CHECK(images[0].channels<float>(4, 4)[3] == -0x1p-40f);
+  CHECK(bits(images[1].channels<float>(4, 4)[0]) == 0);
+  CHECK(bits(images[1].channels<float>(4, 4)[1]) == 0);
 }
 
 TEST_CASE("a frame of depth alone, and of nothing") {
