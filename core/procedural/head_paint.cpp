@@ -16,15 +16,21 @@ Vec3d rgb(int r, int g, int b) { return {r / 255.0, g / 255.0, b / 255.0}; }
 
 struct Skin {
   Vec3d color;
-  double height;  ///< relief in model units, for shading
+  Vec3d slope;    ///< gradient of the relief, for shading
   double gloss;
 };
 
-/// Scales: small on the face, larger on neck and crest; each a dome with a dark rim.
-double scale_relief(const Vec3d& p, double size, std::uint64_t seed, double& tint) {
+/// Scales of about `size`: domes that meet in dark grooves.
+struct Scales {
+  double dome;   ///< 0 in the groove, 1 on the flat top
+  double tint;   ///< −½..½, one value per scale
+  Vec3d slope;   ///< gradient of the dome
+};
+Scales scales_at(const Vec3d& p, double size, std::uint64_t seed) {
+  constexpr double kGroove = 0.35;
   const Cells cells = cellular_noise(p * (1 / size), seed);
-  tint = static_cast<double>(cells.identity >> 44) * 0x1p-20 - 0.5;
-  return smooth_step(0.0, 0.35, cells.second - cells.nearest);
+  const double t = clamp01((cells.second - cells.nearest) / kGroove);
+  return {t * t * (3 - 2 * t), static_cast<double>(cells.identity >> 44) * 0x1p-20 - 0.5, cells.gradient * (6 * t * (1 - t) / (kGroove * size))};
 }
 
 Skin skin_at(const Vec3d& p) {
@@ -63,14 +69,13 @@ Skin skin_at(const Vec3d& p) {
                       smooth_step(-0.28, -0.02, w.y) * (1 - on_crest) * (1 - bands);
   color = mix(color, rgb(250, 214, 96), 0.75 * spot);
 
-  double tint = 0;
-  const double fine = scale_relief(p, 0.045, 777, tint);
-  double coarse_tint = 0;
-  const double coarse = scale_relief(w, 0.11, 888, coarse_tint);
-  const double coarse_share = smooth_step(0.15, -0.35, p.z) * (1 - on_crest);
-  const double smooth_share = 1 - 0.85 * bill;
-  color *= 1 + smooth_share * (0.16 * mix(tint, coarse_tint, coarse_share) + 0.05 * fractal_noise(p * 9.0, 2, 61));
-  color *= 1 - smooth_share * mix(0.22 * (1 - fine), 0.26 * (1 - coarse), coarse_share) * (1 - 0.6 * on_crest);
+  // Fine scales on the face, coarse ones on neck and nape, hardly any on the bill.
+  const double scaly = (1 - 0.85 * bill) * (1 - 0.6 * on_crest), coarse_share = smooth_step(0.15, -0.35, p.z) * (1 - on_crest);
+  Scales fine{1, 0, {0, 0, 0}}, coarse{1, 0, {0, 0, 0}};
+  if (coarse_share < 1) fine = scales_at(p, 0.045, 777);
+  if (coarse_share > 0) coarse = scales_at(p + warp * 0.25, 0.085, 888);
+  color *= 1 + scaly * (0.16 * mix(fine.tint, coarse.tint, coarse_share) + 0.05 * fractal_noise(p * 9.0, 2, 61));
+  color *= 1 - scaly * mix(0.22 * (1 - fine.dome), 0.26 * (1 - coarse.dome), coarse_share);
 
   const double mouth = std::fabs(p.y - mouth_height(p.z));
   const double in_mouth = smooth_step(0.026, 0.008, mouth) * smooth_step(0.24, 0.34, p.z);
@@ -80,8 +85,7 @@ Skin skin_at(const Vec3d& p) {
   const double nostril = smooth_step(0.062, 0.035, length((q - Vec3d(0.17, 0.135, 1.33)) * Vec3d(1, 1, 0.7)));
   color = mix(color, rgb(52, 22, 24), nostril);
 
-  const double height = smooth_share * mix(0.0035 * fine, 0.007 * coarse, coarse_share) * (1 - 0.6 * on_crest);
-  return {color, height, 0.25 + 0.35 * bill};
+  return {color, (fine.slope * (0.0035 * (1 - coarse_share)) + coarse.slope * (0.006 * coarse_share)) * scaly, 0.25 + 0.35 * bill};
 }
 
 /// The eye looks along its axis: amber iris with fibres, round pupil, dark limbus, two fixed highlights.
@@ -93,7 +97,7 @@ Vec3d eye_color(const Vec3d& p, double& emission) {
   const double x = dot(d, right), y = dot(d, up), r = std::sqrt(x * x + y * y);
   const bool front = dot(d, eye.axis) > 0;
   const double radius = front ? r : 1;
-  constexpr double kIris = 0.66, kPupil = 0.30;
+  constexpr double kIris = 0.76, kPupil = 0.42;
 
   Vec3d color = mix(rgb(250, 244, 228), rgb(226, 190, 160), smooth_step(kIris, 1.0, radius));
   const double inv = 1 / (radius + 1e-6);
@@ -122,9 +126,12 @@ HeadLight head_light_at(const Vec3d& p) {
 }
 
 Vec3d head_color(const Vec3d& near_surface, const HeadLight& light) {
-  const Vec3d p = projected(head_field, near_surface, 2);
   const HeadEye& eye = head_eye();
-  const double from_eye = length(Vec3d(std::fabs(p.x), p.y, p.z) - eye.center);
+  const auto distance_to_eye = [&](const Vec3d& q) { return length(Vec3d(std::fabs(q.x), q.y, q.z) - eye.center); };
+  // Between vertices a point lies off the surface by its curvature; that shows only at the rims of eye, mouth and nostrils.
+  const bool delicate = distance_to_eye(near_surface) < 1.6 * eye.radius || (near_surface.z > 0.2 && near_surface.y > -0.4 && near_surface.y < 0.3);
+  const Vec3d p = delicate ? projected(head_field, near_surface, 2) : near_surface;
+  const double from_eye = distance_to_eye(p);
   const double in_eye = smooth_step(eye.radius + 0.011, eye.radius + 0.004, from_eye);
 
   Vec3d normal = field_normal(head_field, p, 1.5e-3);
@@ -133,25 +140,22 @@ Vec3d head_color(const Vec3d& near_surface, const HeadLight& light) {
   const Skin skin = skin_at(p);
   color = skin.color;
   gloss = skin.gloss;
-  // Dark skin around the eye, like kohl.
-  color = mix(color, rgb(24, 30, 44), 0.8 * smooth_step(eye.radius + 0.075, eye.radius + 0.02, from_eye));
+  // A pale ring around the eye, and a dark rim like kohl.
+  color = mix(color, rgb(148, 206, 150), 0.6 * bump(from_eye - eye.radius - 0.055, 0.055));
+  color = mix(color, rgb(24, 30, 44), 0.85 * smooth_step(eye.radius + 0.034, eye.radius + 0.014, from_eye));
   if (in_eye > 0) {
     color = mix(color, eye_color(p, emission), in_eye);
     emission *= in_eye;
   }
   if (in_eye < 1) {
-    // Relief by two differences along the surface; the field itself is smooth.
-    const Vec3d t = normalized(cross(normal, std::fabs(normal.y) < 0.8 ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0))), b = cross(normal, t);
-    constexpr double kStep = 0.004;
-    const double h0 = skin.height, ht = skin_at(p + t * kStep).height, hb = skin_at(p + b * kStep).height;
-    normal = normalized(normal - (t * (ht - h0) + b * (hb - h0)) * ((1 - in_eye) / kStep));
+    normal = normalized(normal - (skin.slope - normal * dot(skin.slope, normal)) * (1 - in_eye));
   }
 
   const double key = std::fmax(0, dot(normal, kKeyLight)) * light.key;
   const double wrap = clamp01(0.5 + 0.5 * dot(normal, kKeyLight));
   const double rim = std::fmax(0, dot(normal, kRimLight));
   const double up = 0.5 + 0.5 * normal.y;
-  const Vec3d sky = mix(rgb(122, 96, 92), rgb(176, 204, 236), up) * (light.sky * 0.62);
+  const Vec3d sky = mix(rgb(168, 136, 120), rgb(180, 206, 236), up) * (light.sky * 0.66);
   const Vec3d total = sky + Vec3d(1.0, 0.93, 0.82) * (0.62 * key + 0.12 * wrap * light.sky) + Vec3d(0.45, 0.55, 0.85) * (0.30 * rim * light.sky);
   Vec3d lit = color * total;
   // A soft sheen toward the mean viewer in front of the head: a baked texture has no viewer of its own.

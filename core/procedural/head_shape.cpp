@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kBaseHeight = -1.36;
 constexpr double kScallops = 5.5;
+constexpr double kCrestThickness = 0.16;  ///< half, at the root
 
 const Vec3d kCrestCenter(0, 0.10, -0.02);
 const Vec3d kCrestAxis(0, 0.80, -0.60);  // toward the highest point of the crest
@@ -19,16 +20,16 @@ double crest_field(const Vec3d& q) {
   const double along = (d.y * kCrestAxis.y + d.z * kCrestAxis.z) / r;
   const double across = (d.z * kCrestAxis.y - d.y * kCrestAxis.z) / r;  // sine of the angle from the axis, forward positive
   const double spread = across > 0 ? smooth_step(0.25, 1.0, along) : smooth_step(-0.15, 1.0, along);
-  const double scallop = 0.035 * cos_turns(across * kScallops * 0.5) * smooth_step(0.1, 0.6, spread);
+  const double scallop = 0.045 * cos_turns(across * kScallops * 0.5) * smooth_step(0.1, 0.6, spread);
   const double edge = 0.42 + 0.92 * spread + scallop;
-  const double thickness = mix(0.16, 0.05, clamp01((r - 0.4) / (edge - 0.3)));
+  const double thickness = mix(kCrestThickness, 0.05, clamp01((r - 0.4) / (edge - 0.3)));
   return smooth_max((r - edge) * 0.75, std::fabs(q.x) - thickness, 0.09);
 }
 
 }  // namespace
 
 const HeadEye& head_eye() {
-  static const HeadEye eye{{0.335, 0.335, 0.40}, 0.205, normalized(Vec3d(0.80, 0.10, 0.60))};
+  static const HeadEye eye{{0.325, 0.335, 0.40}, 0.225, normalized(Vec3d(0.70, 0.08, 0.71))};
   return eye;
 }
 
@@ -44,9 +45,8 @@ CrestPlace crest_place(const Vec3d& p) {
   const double across = (d.z * kCrestAxis.y - d.y * kCrestAxis.z) / r;
   const double spread = across > 0 ? smooth_step(0.25, 1.0, along) : smooth_step(-0.15, 1.0, along);
   const double edge = 0.42 + 0.92 * spread;
-  const double base = 0.62;
-  const double rise = edge > base + 0.02 ? clamp01((r - base) / (edge - base)) : 0;
-  return {rise * smooth_step(0.05, 0.3, spread), across * kScallops * 0.5};
+  constexpr double kRoot = 0.60;
+  return {clamp01((r - kRoot) / std::fmax(edge - kRoot, 0.3)) * smooth_step(0.02, 0.25, spread), across * kScallops * 0.5};
 }
 
 double head_field(const Vec3d& p) {
@@ -60,7 +60,8 @@ double head_field(const Vec3d& p) {
   d = smooth_min(d, ellipsoid(q, {0, -0.28, 1.08}, {0.33, 0.12, 0.34}), 0.08);                              // lower bill
   d = smooth_min(d, round_cone(q, {0.28, -0.06, 0.24}, {0.24, 0.0, 0.52}, 0.24, 0.17), 0.16);              // cheek
   d = smooth_min(d, round_cone(q, {0, 0.05, -0.22}, {0, -1.7, -0.62}, 0.44, 0.70), 0.26);                  // neck
-  d = smooth_min(d, crest_field(q), 0.14);
+  // Parts that a bound shows to lie farther than the blend reaches change nothing: smooth_min(a, b, k) = a where b >= a + k.
+  if (q.x - kCrestThickness < d + 0.14) d = smooth_min(d, crest_field(q), 0.14);
 
   // Mouth: a groove that ends in the cheek.
   const double mouth = bump(q.y - mouth_height(q.z), 0.05) * smooth_step(0.22, 0.36, q.z);
@@ -72,14 +73,16 @@ double head_field(const Vec3d& p) {
   // Eye: the ball, brow above it, lids as slightly larger shells cut by planes.
   const HeadEye& eye = head_eye();
   const Vec3d e = q - eye.center;
-  d = smooth_min(d, round_cone(q, {0.26, 0.56, 0.18}, {0.27, 0.53, 0.50}, 0.11, 0.08), 0.12);
-  const double ball = length(e) - eye.radius;
-  const double shell = length(e) - (eye.radius + 0.028);
-  const Vec3d upper = normalized(Vec3d(-0.30, 1.0, 0.10)), lower = normalized(Vec3d(-0.25, -1.0, -0.15));
-  const double upper_lid = smooth_max(shell, 0.085 - dot(e, upper), 0.025);
-  const double lower_lid = smooth_max(shell, 0.130 - dot(e, lower), 0.025);
-  d = smooth_min(d, smooth_min(upper_lid, lower_lid, 0.03), 0.05);
-  d = smooth_min(d, ball, 0.012);
+  d = smooth_min(d, round_cone(q, {0.27, 0.575, 0.16}, {0.235, 0.60, 0.44}, 0.095, 0.07), 0.12);
+  const double from_eye = length(e);
+  const double shell = from_eye - (eye.radius + 0.028);
+  if (shell - 0.01 < d + 0.05) {
+    static const Vec3d kUpper = normalized(Vec3d(0.10, 1.0, -0.10)), kLower = normalized(Vec3d(-0.22, -1.0, -0.10));
+    const double upper_lid = smooth_max(shell, 0.178 - dot(e, kUpper), 0.025);
+    const double lower_lid = smooth_max(shell, 0.180 - dot(e, kLower), 0.025);
+    d = smooth_min(d, smooth_min(upper_lid, lower_lid, 0.03), 0.05);  // 0.03/4 < 0.01
+    d = smooth_min(d, from_eye - eye.radius, 0.02);
+  }
 
   return smooth_max(d, kBaseHeight - p.y, 0.08);
 }
@@ -90,7 +93,8 @@ double head_density(const Vec3d& p) {
   const double face = smooth_step(-0.3, 0.5, p.z) * smooth_step(-0.9, -0.4, p.y);
   const double near_eye = bump(length(q - eye.center), 0.48);
   const double base = smooth_step(-0.6, -1.3, p.y);
-  return 1 + 0.35 * face + 0.9 * near_eye - 0.4 * base;
+  const double edge = smooth_step(0.55, 0.95, crest_place(p).rise);
+  return 1 + 0.35 * face + 0.9 * near_eye + 0.5 * edge - 0.25 * base;
 }
 
 SpinePose head_spine(double t) {
@@ -98,9 +102,9 @@ SpinePose head_spine(double t) {
     double t, y, z, tilt, cone;  // tilt: dorsal direction from up toward the back, in turns; cone: of the rays toward forward, in turns
   };
   static constexpr Key kKeys[] = {
-      {0.00, -0.10, 1.12, 0.000, 0.25},  {0.20, -0.10, 1.12, 0.000, 0.000}, {0.42, 0.05, 0.60, 0.010, 0.0},
-      {0.56, 0.12, 0.12, 0.070, 0.0},    {0.70, 0.00, -0.15, 0.185, 0.0},   {0.80, -0.45, -0.30, 0.245, 0.0},
-      {0.88, -0.95, -0.42, 0.25, 0.0},   {1.00, -0.95, -0.42, 0.25, -0.25},
+      {0.00, -0.10, 1.12, 0.000, 0.25},  {0.20, -0.10, 1.12, 0.000, 0.000}, {0.42, 0.05, 0.60, 0.024, 0.0},
+      {0.56, 0.12, 0.12, 0.085, 0.0},    {0.68, 0.00, -0.15, 0.120, 0.0},   {0.80, -0.45, -0.30, 0.180, 0.0},
+      {0.90, -0.95, -0.42, 0.25, 0.0},   {1.00, -0.95, -0.42, 0.25, -0.25},
   };
   std::size_t i = 0;
   while (i + 2 < std::size(kKeys) && t > kKeys[i + 1].t) ++i;

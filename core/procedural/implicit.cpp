@@ -6,8 +6,6 @@ namespace etalon::procedural {
 
 namespace {
 
-double squared_with_sign(double x) { return x < 0 ? -x * x : x * x; }
-
 /// March of a ray that has left the surface: the least clearance/(softness·distance) met, 1 where it never comes near.
 double clearance(Field field, const Vec3d& start, const Vec3d& direction, double softness, double reach) {
   double open = 1;
@@ -23,27 +21,6 @@ double clearance(Field field, const Vec3d& start, const Vec3d& direction, double
 }
 
 }  // namespace
-
-double round_cone(const Vec3d& p, const Vec3d& a, const Vec3d& b, double radius_a, double radius_b) {
-  const Vec3d ba = b - a, pa = p - a;
-  const double l2 = dot(ba, ba), rr = radius_a - radius_b;
-  const double a2 = l2 - rr * rr, il2 = 1 / l2;
-  const double y = dot(pa, ba), z = y - l2;
-  const Vec3d side = pa * l2 - ba * y;
-  const double x2 = dot(side, side), y2 = y * y * l2, z2 = z * z * l2;
-  const double k = squared_with_sign(rr) * x2;
-  if ((z < 0 ? -1 : 1) * a2 * z2 > k) return std::sqrt(x2 + z2) * il2 - radius_b;
-  if ((y < 0 ? -1 : 1) * a2 * y2 < k) return std::sqrt(x2 + y2) * il2 - radius_a;
-  return (std::sqrt(x2 * a2 * il2) + y * rr) * il2 - radius_a;
-}
-
-double ellipsoid(const Vec3d& p, const Vec3d& center, const Vec3d& radii) {
-  const Vec3d q = (p - center) / radii;
-  const Vec3d g = q / radii;
-  const double k0 = length(q), k1 = length(g);
-  if (!(k1 > 0)) return -std::fmin(radii.x, std::fmin(radii.y, radii.z));
-  return k0 * (k0 - 1) / k1;
-}
 
 Vec3d field_normal(Field field, const Vec3d& p, double h) {
   const Vec3d a(1, -1, -1), b(-1, -1, 1), c(-1, 1, -1), d(1, 1, 1);
@@ -66,7 +43,7 @@ double outermost_hit(Field field, const Vec3d& origin, const Vec3d& direction, d
   }
   if (s <= 0) return 0;
   double inside = s;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 26; ++i) {
     const double middle = 0.5 * (inside + outside);
     (field(origin + direction * middle) < 0 ? inside : outside) = middle;
   }

@@ -9,9 +9,27 @@ namespace etalon::procedural {
 using Field = double (*)(const Vec3d&);
 
 /// Distance to the hull of two balls (a, radius_a) and (b, radius_b), neither inside the other; exact [Quilez, "round cone"].
-[[nodiscard]] double round_cone(const Vec3d& p, const Vec3d& a, const Vec3d& b, double radius_a, double radius_b);
+[[nodiscard]] inline double round_cone(const Vec3d& p, const Vec3d& a, const Vec3d& b, double radius_a, double radius_b) {
+  const Vec3d ba = b - a, pa = p - a;
+  const double l2 = dot(ba, ba), rr = radius_a - radius_b;
+  const double a2 = l2 - rr * rr, il2 = 1 / l2;
+  const double y = dot(pa, ba), z = y - l2;
+  const Vec3d side = pa * l2 - ba * y;
+  const double x2 = dot(side, side), y2 = y * y * l2, z2 = z * z * l2;
+  const double k = (rr < 0 ? -rr : rr) * rr * x2;
+  if ((z < 0 ? -1 : 1) * a2 * z2 > k) return std::sqrt(x2 + z2) * il2 - radius_b;
+  if ((y < 0 ? -1 : 1) * a2 * y2 < k) return std::sqrt(x2 + y2) * il2 - radius_a;
+  return (std::sqrt(x2 * a2 * il2) + y * rr) * il2 - radius_a;
+}
+
 /// First-order distance to an axis-aligned ellipsoid; its zero set is exact.
-[[nodiscard]] double ellipsoid(const Vec3d& p, const Vec3d& center, const Vec3d& radii);
+[[nodiscard]] inline double ellipsoid(const Vec3d& p, const Vec3d& center, const Vec3d& radii) {
+  const Vec3d q = (p - center) / radii;
+  const Vec3d g = q / radii;
+  const double k0 = length(q), k1 = length(g);
+  if (!(k1 > 0)) return -std::fmin(radii.x, std::fmin(radii.y, radii.z));
+  return k0 * (k0 - 1) / k1;
+}
 
 /// Unit gradient by four differences at distance h (the corners of a tetrahedron).
 [[nodiscard]] Vec3d field_normal(Field field, const Vec3d& p, double h);

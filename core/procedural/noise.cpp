@@ -19,10 +19,8 @@ double fade(double t) { return t * t * t * (t * (t * 6 - 15) + 10); }
 }  // namespace
 
 std::uint64_t lattice_hash(std::int64_t x, std::int64_t y, std::int64_t z, std::uint64_t seed) {
-  std::uint64_t h = mixed(seed + 0x9E3779B97F4A7C15ull);
-  h = mixed(h ^ (static_cast<std::uint64_t>(x) * 0xD6E8FEB86659FD93ull));
-  h = mixed(h ^ (static_cast<std::uint64_t>(y) * 0xA0761D6478BD642Full));
-  return mixed(h ^ (static_cast<std::uint64_t>(z) * 0xE7037ED1A0B428DBull));
+  return mixed(static_cast<std::uint64_t>(x) * 0xD6E8FEB86659FD93ull + static_cast<std::uint64_t>(y) * 0xA0761D6478BD642Full +
+               static_cast<std::uint64_t>(z) * 0xE7037ED1A0B428DBull + (seed + 1) * 0x9E3779B97F4A7C15ull);
 }
 
 double value_noise(const Vec3d& p, std::uint64_t seed) {
@@ -57,9 +55,15 @@ Cells cellular_noise(const Vec3d& p, std::uint64_t seed) {
   const auto ix = static_cast<std::int64_t>(fx), iy = static_cast<std::int64_t>(fy), iz = static_cast<std::int64_t>(fz);
   double nearest = 1e30, second = 1e30;  // squared until the end
   std::uint64_t identity = 0;
-  for (int k = -1; k <= 1; ++k)
-    for (int j = -1; j <= 1; ++j)
-      for (int i = -1; i <= 1; ++i) {
+  Vec3d to_nearest(0, 0, 0), to_second(0, 0, 0);
+  // Squared distance from p to the slab of cells at offset −1, 0, 1: cells farther than the second point need no look.
+  const auto gap = [](double t, int offset) { return offset == 0 ? 0.0 : (offset < 0 ? t * t : (1 - t) * (1 - t)); };
+  const double tx = p.x - fx, ty = p.y - fy, tz = p.z - fz;
+  constexpr int kOrder[] = {0, -1, 1};
+  for (const int k : kOrder)
+    for (const int j : kOrder)
+      for (const int i : kOrder) {
+        if (gap(tx, i) + gap(ty, j) + gap(tz, k) > second) continue;
         const std::uint64_t h = lattice_hash(ix + i, iy + j, iz + k, seed);
         const double dx = fx + i + static_cast<double>(h & 0xFFFFF) * 0x1p-20 - p.x;
         const double dy = fy + j + static_cast<double>((h >> 20) & 0xFFFFF) * 0x1p-20 - p.y;
@@ -67,13 +71,18 @@ Cells cellular_noise(const Vec3d& p, std::uint64_t seed) {
         const double d = dx * dx + dy * dy + dz * dz;
         if (d < nearest) {
           second = nearest;
+          to_second = to_nearest;
           nearest = d;
+          to_nearest = {dx, dy, dz};
           identity = h;
         } else if (d < second) {
           second = d;
+          to_second = {dx, dy, dz};
         }
       }
-  return {std::sqrt(nearest), std::sqrt(second), identity};
+  nearest = std::sqrt(nearest);
+  second = std::sqrt(second);
+  return {nearest, second, to_nearest * (1 / (nearest + 1e-9)) - to_second * (1 / (second + 1e-9)), identity};
 }
 
 }  // namespace etalon::procedural

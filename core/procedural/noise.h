@@ -7,7 +7,7 @@
 
 namespace etalon::procedural {
 
-/// 64 well mixed bits of a lattice point (the finaliser of SplitMix64 over the three coordinates and the seed).
+/// 64 well mixed bits of a lattice point (SplitMix64's finaliser over an odd-weighted sum of coordinates and seed).
 [[nodiscard]] std::uint64_t lattice_hash(std::int64_t x, std::int64_t y, std::int64_t z, std::uint64_t seed);
 
 /// Value noise in [-1, 1]: hashed lattice values blended by the quintic fade 6t⁵ − 15t⁴ + 10t³; lattice spacing 1. |p| < 2^31.
@@ -20,6 +20,7 @@ namespace etalon::procedural {
 struct Cells {
   double nearest;          ///< distance to the nearest point
   double second;           ///< distance to the next one
+  Vec3d gradient;          ///< of second − nearest; points away from the border between the two
   std::uint64_t identity;  ///< hash of the cell that owns the nearest point
 };
 [[nodiscard]] Cells cellular_noise(const Vec3d& p, std::uint64_t seed);

@@ -2,6 +2,8 @@
 // Angles are in turns (1 = 360°), because the reduction of a turn to one period is exact.
 #pragma once
 
+#include <cmath>
+
 #include "core/math/vec.h"
 
 namespace etalon::procedural {
@@ -42,8 +44,12 @@ inline constexpr double kPi = 3.14159265358979323846;
 [[nodiscard]] inline Vec3d cross(const Vec3d& a, const Vec3d& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-[[nodiscard]] double length(const Vec3d& a);
+[[nodiscard]] inline double length(const Vec3d& a) { return std::sqrt(dot(a, a)); }
 /// a / |a|; the zero vector becomes (0, 1, 0).
-[[nodiscard]] Vec3d normalized(const Vec3d& a);
+[[nodiscard]] inline Vec3d normalized(const Vec3d& a) {
+  const double l = length(a);
+  if (!(l > 0)) return {0, 1, 0};
+  return {a.x / l, a.y / l, a.z / l};
+}
 
 }  // namespace etalon::procedural

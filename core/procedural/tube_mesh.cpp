@@ -9,8 +9,8 @@ namespace etalon::procedural {
 
 namespace {
 
-constexpr int kFineRings = 384;  ///< samples along the spine and over half a ring from which lengths are measured
-constexpr int kFineHalf = 160;
+constexpr int kFineRings = 288;  ///< samples along the spine and over half a ring from which lengths are measured
+constexpr int kFineHalf = 112;
 
 Vec3d on_ray(const TubeOptions& o, const SpinePose& pose, double half_turns) {
   const double c = cos_turns(half_turns * 0.5), s = sin_turns(half_turns * 0.5);
