@@ -114,7 +114,8 @@ void GlPipeline::set_state(const Frame& frame) const {
   gl_.disable(gl::kStencilTest);
   gl_.disable(gl::kFramebufferSrgb);
   gl_.color_mask(1, 1, 1, 1);
-  // A z rounded past −w or w must not be clipped: clipping would make new vertices.
+  // No vertex is beyond the planes z = ±w (rounding (2z − 1)·w keeps the order), so nothing is clipped either way; the clamp keeps a
+  // device from writing a depth that it interpolated past 0 or 1. llvmpipe was seen to draw the same without it.
   gl_.enable(gl::kDepthClamp);
   gl_.depth_range(0, 1);
   // Disabling the depth test would also stop depth from being written.

@@ -35,7 +35,7 @@ std::array<Vec4f, 3> clip_positions(const std::array<RasterVertex, 3>& triangle,
   std::array<Vec4f, 3> clip;
   for (int i = 0; i < 3; ++i) {
     const double w = affine ? 1.0 : static_cast<double>(triangle[i].w);
-    const double z_ndc = 2.0 * static_cast<double>(canonical(triangle[i].z)) - 1.0;
+    const double z_ndc = 2.0 * static_cast<double>(triangle[i].z) - 1.0;
     clip[i] = Vec4f(clip_coordinate(triangle[i].x, viewport.x, viewport.width, subtexel_bits, w),
                     clip_coordinate(triangle[i].y, viewport.y, viewport.height, subtexel_bits, w), static_cast<float>(z_ndc * w),
                     static_cast<float>(w));

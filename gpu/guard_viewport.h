@@ -10,13 +10,19 @@
 //   z_n   = 2·z − 1                            in double; exact for z = 0 or z >= 2^-29 (below, one rounding of 2^-53)
 //   z_c   = float32(z_n · w_c)                 in double, then one rounding
 //
-// With b <= 8, |x_n| < 1 holds at most 8192·2^8 = 2^21 steps of one sub-texel: x_n itself is a float32.
-// The device computes x_w = x_c/w_c · vw/2 + (vx + vw/2) and z_w = z_c/w_c · ½ + ½ in float32. With u = 2^-24:
-//   w_c = 1:  x_w is exact, fused or not (all intermediate values are float32 numbers); no displacement;
-//             |z_w − z| <= u·|2z − 1|/2 + u/2 (rounding of z_c, then of the sum, z_w < 1 having half an ulp of at most u/2).
-//   w_c ≠ 1:  three relative errors of u (x_c, the reciprocal, their product) and the rounding of the window position:
-//             |x_w − x| <= δ = 3u(1 + 2u)·vw/2 + u·max(|vx|, vx + vw) texels (unfused: + u·vw/2); below half a sub-texel of 2^-8 the
-//             device's snap restores x. |z_w − z| <= 3u(1 + 2u)·|2z − 1|/2 + u/2.
+// |x_n| <= 1 is at most 8192·2^b steps of one sub-texel: with b <= 8 (2^21 steps) x_n itself is a float32 number.
+// |x_c| <= w_c and |z_c| <= w_c since rounding keeps order: no vertex is clipped.
+//
+// The device then computes in float32 (Mesa, draw_llvm.c, generate_viewport: one division 1/w, a product, a multiply-add)
+//   r = fl(1 / w_c), x_w = fma(fl(x_c·r), vw/2, vx + vw/2), z_w = fma(fl(z_c·r), ½, ½); without FMA the product is rounded before the sum.
+// With u = 2^-24:
+//   w_c = 1:  x_w = x / 2^b exactly, fused or not: every intermediate value is a float32 number. Displacement 0.
+//             |z_w − z| <= u·|2z − 1|/2 + u/2: the rounding of z_c, then that of the sum (half an ulp below 1 is at most u/2).
+//   w_c ≠ 1:  x_c, r and their product are rounded, a relative error of at most 3u(1 + 2u); then the sum:
+//             |x_w − x| <= δ = 3u(1 + 2u)·vw/2 + ½u·2^⌈log2 max(|vx|, vx + vw)⌉ texels, + u·vw/2 where not fused. In sub-texels of 2^-8,
+//             fused: at most 0.25 for vw = 8192 and 0.5 for vw = 16384, less than 0.5 in fact (at |x_n| = 1, x_c = ±w_c has no error,
+//             elsewhere |x_n| <= 1 − 2^-21); so the device's own snap brings x back. Unfused that is proven up to vw = 8192.
+//             |z_w − z| <= 3u(1 + 2u)·|2z − 1|/2 + u/2.
 #pragma once
 
 #include <array>

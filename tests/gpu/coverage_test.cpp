@@ -102,15 +102,18 @@ TEST_CASE("triangles that reach to the edge of the guard are not clipped") {
   CHECK(count_bad(*renderer, far_out, {8000, 16, 1, true}, 8, 12, rng) == 0);
 }
 
-TEST_CASE("vertices at depth 0 and 1 are not clipped where z is rounded past w") {
+TEST_CASE("vertices at depth 0 and 1 are not clipped, and interpolated depths stay between") {
   GlRenderer* renderer = renderer_or_skip("gpu depth clamp");
   if (renderer == nullptr) return;
   Rng rng(4);
-  Frame frame = frame_of(*renderer, 128, 128, 64, {kIdTarget});
+  Frame frame = frame_of(*renderer, 128, 128, 64, {kIdTarget, kDepthTarget});
   frame.state.depth_test = false;
   DrawList list = random_triangles(2000, frame, {12, 0, 1, true}, rng);
-  for (RasterVertex& v : list.vertices) v.z = rng.coin() ? 1.0f : rng.coin() ? 0.0f : 1.0f - 0x1p-24f;
-  CHECK(count_different(renderer->render(list, frame).front(), reference_ids(list, frame)) == 0);
+  for (RasterVertex& v : list.vertices) v.z = rng.coin() ? 1.0f : 0.0f;
+  const std::vector<Image> images = renderer->render(list, frame);
+  CHECK(count_different(images[0], reference_ids(list, frame)) == 0);
+  const auto* depths = images[1].channels<float>(0, 0);
+  CHECK(std::all_of(depths, depths + images[1].texel_count(), [](float z) { return z >= 0 && z <= 1; }));
 }
 
 TEST_CASE("zero area draws nothing and culling drops one orientation") {

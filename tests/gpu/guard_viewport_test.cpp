@@ -74,7 +74,8 @@ TEST_CASE("perspective vertices are displaced by less than the stated bound, whi
     const GuardViewport viewport = guard_viewport(frame);
     const double u = 0x1p-24;
     const double half = viewport.width / 2.0;
-    const double bound = 3 * u * (1 + 2 * u) * half + u * std::max(-viewport.x, viewport.x + viewport.width);
+    const double bound =
+        3 * u * (1 + 2 * u) * half + u * std::bit_ceil(static_cast<unsigned>(std::max(-viewport.x, viewport.x + viewport.width))) / 2;
     double worst = 0;
     for (int i = 0; i < 40000; ++i) {
       std::array<RasterVertex, 3> triangle;
@@ -91,6 +92,7 @@ TEST_CASE("perspective vertices are displaced by less than the stated bound, whi
       CHECK(std::nearbyint(static_cast<double>(x_device) * 256) == triangle[0].x);
     }
     CHECK(worst <= bound);
+    CHECK(bound * 256 <= 0.5 * (1 + 2 * u));
     CHECK(worst > 0);
   }
 }
