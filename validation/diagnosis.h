@@ -21,7 +21,7 @@ struct DiagnosisOptions {
   std::size_t sample_limit = 65536;  ///< unexplained texels looked at, evenly spaced in row order
   /// Makes the draw list again with another rounding onto the grid; empty: that question is not asked.
   std::function<DrawList(SnapRounding)> scene_with_snap;
-  /// Unexplained texels that no hypothesis explains are called isolated up to this share of the frame (and at least 16).
+  /// Unexplained texels are called isolated up to this share of the frame (and at least 16), unless fill rule or sub-texel rounding explain half of them.
   double isolated_share = 1e-5;
 };
 
