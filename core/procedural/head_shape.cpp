@@ -35,7 +35,8 @@ const HeadEye& head_eye() {
 
 double mouth_height(double z) {
   const double t = clamp01((z - 0.25) / 1.25);
-  return 0.03 - 0.30 * t * (1 - 0.55 * t) ;
+  const double corner = (1 - t) * (1 - t) * (1 - t);
+  return 0.02 - 0.28 * t * (1 - 0.52 * t) + 0.075 * corner * corner;  // falls to the front, turns up at the corner
 }
 
 CrestPlace crest_place(const Vec3d& p) {
@@ -46,7 +47,8 @@ CrestPlace crest_place(const Vec3d& p) {
   const double spread = across > 0 ? smooth_step(0.25, 1.0, along) : smooth_step(-0.15, 1.0, along);
   const double edge = 0.42 + 0.92 * spread;
   constexpr double kRoot = 0.60;
-  return {clamp01((r - kRoot) / std::fmax(edge - kRoot, 0.3)) * smooth_step(0.02, 0.25, spread), across * kScallops * 0.5};
+  return {clamp01((r - kRoot) / std::fmax(edge - kRoot, 0.3)) * smooth_step(0.05, 0.3, spread) * smooth_step(edge + 0.14, edge + 0.05, r),
+          across * kScallops * 0.5};
 }
 
 double head_field(const Vec3d& p) {

@@ -12,18 +12,21 @@ namespace etalon::procedural {
 
 namespace {
 
+constexpr double kTurns = 0.4;
+constexpr double kFinest = 24;  ///< cells on a side from which a grid follows kTurns without a fold; coarser ones turn less
+
 /// A dome with a saddle in it, so that no direction is straight.
 double height(double x, double y) {
   const double dome = (1 - x * x) * (1 - y * y);
   return 0.55 * dome + 0.22 * (x * x - y * y) + 0.12 * x * y * (x - y);
 }
 
-/// Turning by an angle that depends on the radius alone keeps areas, so it cannot fold.
-Vec2d swirled(double u, double v) {
+/// Turning by an angle that depends on the radius alone keeps areas; `most` is the angle at the centre.
+Vec2d swirled(double u, double v, double most) {
   const double du = u - 0.5, dv = v - 0.5;
   const double s = 1 - 4 * (du * du + dv * dv);
   if (s <= 0) return {u, v};
-  const double turns = 0.4 * s * s;
+  const double turns = most * s * s;
   const double c = cos_turns(turns), n = sin_turns(turns);
   return {0.5 + (c * du - n * dv), 0.5 + (n * du + c * dv)};
 }
@@ -59,6 +62,8 @@ Model make_swirl(const SwirlOptions& options) {
     throw InputError(fmt::format("swirl: texture size: expected 16 to 8192, got {}", options.texture_size));
   const auto n = static_cast<std::uint32_t>(std::fmax(1, std::floor(std::sqrt(options.faces * 0.5) + 0.5)));
 
+  const double most_turns = n < kFinest ? kTurns * n / kFinest : kTurns;
+
   Model model;
   model.name = "swirl";
   Mesh& mesh = model.mesh;
@@ -67,7 +72,7 @@ Model make_swirl(const SwirlOptions& options) {
     for (std::uint32_t i = 0; i <= n; ++i) {
       const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
       const double x = 2 * u - 1, y = 2 * v - 1;
-      const Vec2d uv = swirled(u, v);
+      const Vec2d uv = swirled(u, v, most_turns);
       mesh.wedges.push_back({VertexId(mesh.positions.size()), Vec2f(uv)});
       mesh.positions.push_back(Vec3f(Vec3d(x, y, height(x, y))));
     }

@@ -13,10 +13,7 @@ namespace {
 MeshReport report_of(const std::filesystem::path& path, bool flip) {
   io::LoadedModel model = io::read_mesh(path);
   if (flip) io::flip_v(model.mesh);
-  const Mesh mesh = welded_by_position(model.mesh);
-  const MeshReport report = validate_mesh(mesh);
-  for (const std::string& line : report.to_lines()) MESSAGE(line);
-  return report;
+  return validate_mesh(welded_by_position(model.mesh));
 }
 
 }  // namespace
