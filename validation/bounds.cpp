@@ -104,8 +104,8 @@ double PlaneBound::at(double x, double y) const {
   for (const Start& s : start_) {
     const double slope = s.dx * std::abs(x - s.x) + s.dy * std::abs(y - s.y);
     // The device measures from the frame's origin with sample and vertex both moved by half a texel: |x_s − ½| <= |x_s| + ½.
-    const double round = 6 * kUnitRoundoff *
-                         (s.a + (gx_ + s.dx) * (std::abs(x) + std::abs(s.x) + 0.5) + (gy_ + s.dy) * (std::abs(y) + std::abs(s.y) + 0.5));
+    const double round =
+        6 * kUnitRoundoff * (s.a + (gx_ + s.dx) * (std::abs(x) + std::abs(s.x) + 0.5) + (gy_ + s.dy) * (std::abs(y) + std::abs(s.y) + 0.5));
     worst = std::max(worst, slope + round);
   }
   return (worst + constant_) * factor_;

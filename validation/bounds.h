@@ -17,12 +17,12 @@ enum class BoundOrigin { exact, derived, measured };
 struct DeviceModel {
   std::string name;
   BoundOrigin origin = BoundOrigin::derived;
-  std::string valid_for;  ///< renderer and versions, or date and factor of the measurement
-  double factor = 1;      ///< multiplies every interpolation bound; 0 for a device that keeps the contract to the last bit
-  bool fixed_point_linear8 = false;   ///< unorm8 textures are filtered with 8-bit weights and 8-bit results (gallivm's AoS path)
-  bool srgb_polynomial = false;       ///< sRGB is decoded by gallivm's polynomial and encoded by its approximation
-  bool unorm_toward_zero = false;     ///< unorm targets are truncated: no device declares it, diagnosis asks it
-  double depth_quantum = 0;           ///< spacing of the depth buffer's values; 0 for float32
+  std::string valid_for;             ///< renderer and versions, or date and factor of the measurement
+  double factor = 1;                 ///< multiplies every interpolation bound; 0 for a device that keeps the contract to the last bit
+  bool fixed_point_linear8 = false;  ///< unorm8 textures are filtered with 8-bit weights and 8-bit results (gallivm's AoS path)
+  bool srgb_polynomial = false;      ///< sRGB is decoded by gallivm's polynomial and encoded by its approximation
+  bool unorm_toward_zero = false;    ///< unorm targets are truncated: no device declares it, diagnosis asks it
+  double depth_quantum = 0;          ///< spacing of the depth buffer's values; 0 for float32
 };
 
 /// The oracle itself: every bound 0, any difference is a defect.

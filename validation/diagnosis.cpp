@@ -123,14 +123,17 @@ std::vector<Hypothesis> diagnose(const DrawList& list, const Frame& frame, const
     for (const int axis : {0, 1}) {
       for (const float half : {0.5f, -0.5f}) {
         ask(fmt::format("texture coordinate shifted by {}1/2 texel in {}", half > 0 ? '+' : '-', axis == 0 ? 'u' : 'v'),
-            with_uv(list, [&](Vec2f& uv, const Image& image) { uv[axis] += half / static_cast<float>(axis == 0 ? image.width() : image.height()); }),
+            with_uv(list, [&](Vec2f& uv,
+                              const Image& image) { uv[axis] += half / static_cast<float>(axis == 0 ? image.width() : image.height()); }),
             frame, device);
       }
     }
     for (const float half : {0.5f, -0.5f}) {
-      ask(fmt::format("texture coordinate shifted by {}1/2 texel in u and v", half > 0 ? '+' : '-'), with_uv(list, [&](Vec2f& uv, const Image& image) {
-            uv += Vec2f(half / static_cast<float>(image.width()), half / static_cast<float>(image.height()));
-          }),
+      ask(fmt::format("texture coordinate shifted by {}1/2 texel in u and v", half > 0 ? '+' : '-'),
+          with_uv(list,
+                  [&](Vec2f& uv, const Image& image) {
+                    uv += Vec2f(half / static_cast<float>(image.width()), half / static_cast<float>(image.height()));
+                  }),
           frame, device);
     }
     ask("v flipped", with_uv(list, [](Vec2f& uv, const Image&) { uv.y = 1 - uv.y; }), frame, device);
@@ -149,7 +152,8 @@ std::vector<Hypothesis> diagnose(const DrawList& list, const Frame& frame, const
   other_half.state.half_rounding = was_nearest ? HalfRounding::toward_zero : HalfRounding::nearest_even;
   ask(was_nearest ? "half stored toward zero" : "half stored to nearest even", list, other_half, device);
 
-  std::stable_sort(found.begin(), found.end(), [](const Hypothesis& a, const Hypothesis& b) { return a.explained_share > b.explained_share; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Hypothesis& a, const Hypothesis& b) { return a.explained_share > b.explained_share; });
   const double few = std::max(16.0, options.isolated_share * static_cast<double>(diff.class_image.texel_count()));
   const bool edges_explain = !found.empty() && touches_few(found.front().name) && found.front().explained_share >= 0.5;
   if (static_cast<double>(count) <= few && !edges_explain) found.insert(found.begin(), {"isolated wrong bytes", 1.0});

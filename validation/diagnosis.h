@@ -27,7 +27,8 @@ struct DiagnosisOptions {
 
 /// Hypotheses sorted by share, the best first (ties: the order of the list above); those which explain nothing are left out.
 /// Empty where nothing is unexplained or nothing explains it. `diff` must hold its class image (InputError).
-[[nodiscard]] std::vector<Hypothesis> diagnose(const DrawList& list, const Frame& frame, const DeviceModel& device, std::span<const Image> golden,
-                                               std::span<const Image> candidate, const DiffResult& diff, const DiagnosisOptions& options = {});
+[[nodiscard]] std::vector<Hypothesis> diagnose(const DrawList& list, const Frame& frame, const DeviceModel& device,
+                                               std::span<const Image> golden, std::span<const Image> candidate, const DiffResult& diff,
+                                               const DiagnosisOptions& options = {});
 
 }  // namespace etalon::validation

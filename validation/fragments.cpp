@@ -41,7 +41,8 @@ TriangleEvaluator::TriangleEvaluator(const DrawList& list, std::uint32_t triangl
   std::array<RasterVertex, 3> vertex;
   for (std::size_t i = 0; i < 3; ++i) vertex[i] = list.vertices[list.triangles[triangle][i]];
   const auto area = [&] {
-    return static_cast<Wide>(static_cast<std::int64_t>(vertex[1].x) - vertex[0].x) * (static_cast<std::int64_t>(vertex[2].y) - vertex[0].y) -
+    return static_cast<Wide>(static_cast<std::int64_t>(vertex[1].x) - vertex[0].x) *
+               (static_cast<std::int64_t>(vertex[2].y) - vertex[0].y) -
            static_cast<Wide>(static_cast<std::int64_t>(vertex[2].x) - vertex[0].x) * (static_cast<std::int64_t>(vertex[1].y) - vertex[0].y);
   };
   const Wide signed_area = area();

@@ -76,8 +76,12 @@ class TriangleGrid {
  public:
   TriangleGrid(const DrawList& list, const Frame& frame);
   /// Candidates in ascending order; a superset of those which cover texel (i, j).
-  [[nodiscard]] std::vector<std::uint32_t>::const_iterator begin(int i, int j) const { return entries_.begin() + static_cast<std::ptrdiff_t>(first_[tile(i, j)]); }
-  [[nodiscard]] std::vector<std::uint32_t>::const_iterator end(int i, int j) const { return entries_.begin() + static_cast<std::ptrdiff_t>(first_[tile(i, j) + 1]); }
+  [[nodiscard]] std::vector<std::uint32_t>::const_iterator begin(int i, int j) const {
+    return entries_.begin() + static_cast<std::ptrdiff_t>(first_[tile(i, j)]);
+  }
+  [[nodiscard]] std::vector<std::uint32_t>::const_iterator end(int i, int j) const {
+    return entries_.begin() + static_cast<std::ptrdiff_t>(first_[tile(i, j) + 1]);
+  }
 
  private:
   static constexpr int kTile = 16;

@@ -27,7 +27,8 @@ Preimage unorm_preimage(unsigned code, unsigned maximum) {
 
 Preimage srgb_preimage(unsigned code) {
   // kSrgbThreshold[k − 1] is the smallest number stored as k.
-  return {code == 0 ? -kInf : static_cast<double>(kSrgbThreshold[code - 1]), code == 255 ? kInf : static_cast<double>(kSrgbThreshold[code])};
+  return {code == 0 ? -kInf : static_cast<double>(kSrgbThreshold[code - 1]),
+          code == 255 ? kInf : static_cast<double>(kSrgbThreshold[code])};
 }
 
 Preimage half_preimage(std::uint16_t h, HalfRounding rounding) {
@@ -67,8 +68,7 @@ Preimage stored_preimage(const std::byte* stored, PixelFormat format, int channe
   const std::byte* at = stored + channel * bytes_per_channel(format.type);
   switch (format.type) {
     case ChannelType::unorm8: return unorm_preimage(load<std::uint8_t>(at), 255);
-    case ChannelType::srgb8:
-      return channel == 3 ? unorm_preimage(load<std::uint8_t>(at), 255) : srgb_preimage(load<std::uint8_t>(at));
+    case ChannelType::srgb8: return channel == 3 ? unorm_preimage(load<std::uint8_t>(at), 255) : srgb_preimage(load<std::uint8_t>(at));
     case ChannelType::unorm16: return unorm_preimage(load<std::uint16_t>(at), 65535);
     case ChannelType::half: return half_preimage(load<std::uint16_t>(at), half_rounding);
     case ChannelType::float32: {
@@ -96,8 +96,8 @@ StoredCheck check_stored(const std::byte* stored, PixelFormat format, int channe
   // 2^-50 covers the double in which the exact number and the interval's ends are held.
   double bound = exact.bound + 0x1p-50 * std::abs(exact.value);
   if (device.factor != 0) {
-    const bool linear_unorm = format.type == ChannelType::unorm8 || format.type == ChannelType::unorm16 ||
-                              (format.type == ChannelType::srgb8 && channel == 3);
+    const bool linear_unorm =
+        format.type == ChannelType::unorm8 || format.type == ChannelType::unorm16 || (format.type == ChannelType::srgb8 && channel == 3);
     if (linear_unorm) {
       bound += kUnitRoundoff * std::min(1.0, std::abs(exact.value) + exact.bound) + 0x1p-50 / stored_maximum(format.type);
     } else if (format.type == ChannelType::srgb8 && device.srgb_polynomial) {

@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t kRowsPerBlock = 16;
 
-bool is_compared(TargetContent content) { return content != TargetContent::margins && content != TargetContent::bound_terms; }
-
 void check_images(const Frame& frame, std::span<const Image> images, const char* side) {
   if (images.size() != frame.targets.size()) {
     throw InputError(fmt::format("{} images: expected {}, one per target, got {}", side, frame.targets.size(), images.size()));
@@ -25,8 +23,9 @@ void check_images(const Frame& frame, std::span<const Image> images, const char*
     const Image& image = images[i];
     if (image.empty()) continue;
     if (image.width() != frame.width || image.height() != frame.height || image.format() != frame.targets[i].format) {
-      throw InputError(fmt::format("{} image {} ({}): expected {} × {} {}, got {} × {} {}", side, i, to_string(frame.targets[i].content), frame.width,
-                                   frame.height, to_string(frame.targets[i].format), image.width(), image.height(), to_string(image.format())));
+      throw InputError(fmt::format("{} image {} ({}): expected {} × {} {}, got {} × {} {}", side, i, to_string(frame.targets[i].content),
+                                   frame.width, frame.height, to_string(frame.targets[i].format), image.width(), image.height(),
+                                   to_string(image.format())));
     }
   }
 }
@@ -171,11 +170,12 @@ std::string format_counts(const DiffResult& result) {
   const auto total = static_cast<double>(std::max<std::uint64_t>(1, result.counts.total()));
   for (int c = 0; c < kClassCount; ++c) {
     const auto cls = static_cast<TexelClass>(c);
-    text += fmt::format("{:<12}{:>14}  {:>10.6f} %\n", to_string(cls), result.counts[cls], 100 * static_cast<double>(result.counts[cls]) / total);
+    text += fmt::format("{:<12}{:>14}  {:>10.6f} %\n", to_string(cls), result.counts[cls],
+                        100 * static_cast<double>(result.counts[cls]) / total);
   }
   if (result.counts[TexelClass::unexplained] > 0) {
-    text += fmt::format("unexplained by: coverage {}, depth order {}, texel choice {}, value {}\n", result.unexplained_by[1], result.unexplained_by[2],
-                        result.unexplained_by[3], result.unexplained_by[4]);
+    text += fmt::format("unexplained by: coverage {}, depth order {}, texel choice {}, value {}\n", result.unexplained_by[1],
+                        result.unexplained_by[2], result.unexplained_by[3], result.unexplained_by[4]);
   }
   text += fmt::format("largest share of a bound: rounding {:.3f}, tie {:.3f}; bounds {} for {}\n", result.largest_rounding_share,
                       result.largest_tie_share, to_string(result.bound_origin), result.bound_valid_for);

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/fragments.h"
-#include "validation/texel_lookup.h"
+#include "validation/bounded_triangle.h"
 
 namespace etalon::validation {
 
@@ -24,14 +23,19 @@ inline constexpr int kCauseCount = 5;
 [[nodiscard]] std::string to_string(TexelClass value);
 [[nodiscard]] std::string to_string(Cause value);
 
+/// Margins and bound terms are the oracle's own notes; everything else is compared.
+[[nodiscard]] constexpr bool is_compared(TargetContent content) {
+  return content != TargetContent::margins && content != TargetContent::bound_terms;
+}
+
 struct TexelVerdict {
   TexelClass texel_class = TexelClass::identical;
   Cause cause = Cause::none;
   std::uint32_t triangle = kNoTriangle;            ///< the oracle's visible triangle
   std::uint32_t candidate_triangle = kNoTriangle;  ///< the one that explains the candidate, or that its id target names
   int target = -1;                                 ///< index of the target that decided the class
-  double share = 0;         ///< rounding: the largest share of a value bound that was needed; tie: margin / margin bound
-  double margin = 0;        ///< tie: distance of the decision from its border (texels, or depth)
+  double share = 0;   ///< rounding: the largest share of a value bound that was needed; tie: margin / margin bound
+  double margin = 0;  ///< tie: distance of the decision from its border (texels, or depth)
   double margin_bound = 0;
 };
 
@@ -58,7 +62,6 @@ class TexelExplainer {
   };
 
   TexelExplainer(const DiffInput& input, SharedGrid& grid);
-  ~TexelExplainer();
   TexelExplainer(const TexelExplainer&) = delete;
   TexelExplainer& operator=(const TexelExplainer&) = delete;
 
@@ -67,10 +70,6 @@ class TexelExplainer {
 
   /// One sentence: triangle, exact coordinate, margins, the other choice, verdict.
   [[nodiscard]] std::string describe(int x, int y, const TexelVerdict& verdict);
-
-  /// A triangle with its bounds, made on first use.
-  struct Prepared;
-  [[nodiscard]] Prepared& prepared(std::uint32_t triangle);  ///< valid until the next call
 
  private:
   struct Fragment {
@@ -84,19 +83,20 @@ class TexelExplainer {
     double share = 0, margin = 0, margin_bound = 0;
     int target = -1;
   };
+  [[nodiscard]] BoundedTriangle& prepared(std::uint32_t triangle);  // made on first use; valid until the next call
   [[nodiscard]] std::vector<Fragment> fragments(int x, int y);
   [[nodiscard]] std::uint32_t visible(const std::vector<Fragment>& fragments) const;
   // The tie by depth between the oracle's triangle and another: nothing where the gap is beyond the bounds.
   [[nodiscard]] std::optional<Outcome> depth_tie(const std::vector<Fragment>& fragments, std::uint32_t golden, std::uint32_t other) const;
   [[nodiscard]] Outcome check_values(int x, int y, std::uint32_t triangle, double widen);
-  [[nodiscard]] Outcome check_color(Prepared& p, const Sample& s, const TargetSpec& spec, const std::byte* stored, double widen);
+  [[nodiscard]] Outcome check_color(BoundedTriangle& p, const Sample& s, const TargetSpec& spec, const std::byte* stored, double widen);
   [[nodiscard]] Outcome check_background(const TargetSpec& spec, const std::byte* stored) const;
   [[nodiscard]] Cause cause_of(int x, int y, const std::vector<Fragment>& fragments, std::uint32_t golden);
 
   const DiffInput& input_;
   SharedGrid& grid_;
   int golden_id_ = -1, candidate_id_ = -1;  // index of the id target where both that image and its spec exist
-  std::vector<std::unique_ptr<Prepared>> cache_;
+  std::vector<std::unique_ptr<BoundedTriangle>> cache_;
 };
 
 }  // namespace etalon::validation

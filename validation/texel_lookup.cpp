@@ -142,7 +142,8 @@ Choice linear_choice(const LookupPlan& plan, const DeviceModel& device) {
         if (j <= d) slope_y = std::max(slope_y, std::abs(t(i, j + 1).value - here.value));
       }
     }
-    value.bound = slope_x * reach_x + slope_y * reach_y + decode + 0x1p-40 * floating + (plan.fixed_point ? kFixedLerpError / 255 : kLinearFilterError * largest);
+    value.bound = slope_x * reach_x + slope_y * reach_y + decode + 0x1p-40 * floating +
+                  (plan.fixed_point ? kFixedLerpError / 255 : kLinearFilterError * largest);
   }
   return choice;
 }

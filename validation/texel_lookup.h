@@ -27,9 +27,9 @@ struct Coordinate {
 /// One thing the device may legally return.
 struct Choice {
   std::array<Bounded, 4> value{};
-  bool is_exact = true;    ///< the oracle's own decision; false: another texel
-  double margin = 0;       ///< texels from the exact coordinate to the border that was crossed; 0 for the exact choice
-  double margin_bound = 0; ///< what that margin may be at most
+  bool is_exact = true;     ///< the oracle's own decision; false: another texel
+  double margin = 0;        ///< texels from the exact coordinate to the border that was crossed; 0 for the exact choice
+  double margin_bound = 0;  ///< what that margin may be at most
 };
 
 /// How a lookup is done, with its coordinate in texels.
@@ -58,11 +58,20 @@ bool for_each_choice(const LookupPlan& plan, const DeviceModel& device, double w
     if (body(nearest_choice(plan, i0, j0, device))) return true;
     if (plan.useless) return false;
     const double reach_x = plan.bound_x + widen, reach_y = plan.bound_y + widen;
-    const auto i_lo = static_cast<std::int64_t>(std::floor(plan.x - reach_x)), i_hi = static_cast<std::int64_t>(std::floor(plan.x + reach_x));
-    const auto j_lo = static_cast<std::int64_t>(std::floor(plan.y - reach_y)), j_hi = static_cast<std::int64_t>(std::floor(plan.y + reach_y));
+    const auto i_lo = static_cast<std::int64_t>(std::floor(plan.x - reach_x)),
+               i_hi = static_cast<std::int64_t>(std::floor(plan.x + reach_x));
+    const auto j_lo = static_cast<std::int64_t>(std::floor(plan.y - reach_y)),
+               j_hi = static_cast<std::int64_t>(std::floor(plan.y + reach_y));
+    // One border crossed before two: where a wrap maps both onto one texel, the nearer explanation is the one reported.
+    for (std::int64_t i = i_lo; i <= i_hi; ++i) {
+      if (i != i0 && body(nearest_choice(plan, i, j0, device))) return true;
+    }
+    for (std::int64_t j = j_lo; j <= j_hi; ++j) {
+      if (j != j0 && body(nearest_choice(plan, i0, j, device))) return true;
+    }
     for (std::int64_t j = j_lo; j <= j_hi; ++j) {
       for (std::int64_t i = i_lo; i <= i_hi; ++i) {
-        if ((i != i0 || j != j0) && body(nearest_choice(plan, i, j, device))) return true;
+        if (i != i0 && j != j0 && body(nearest_choice(plan, i, j, device))) return true;
       }
     }
     return false;

@@ -16,7 +16,9 @@ struct Plane {
   float a0, dadx, dady;
 };
 
-float fma_or_not(bool fused, float a, float b, float c) { return fused ? std::fma(a, b, c) : static_cast<float>(static_cast<float>(a * b) + c); }
+float fma_or_not(bool fused, float a, float b, float c) {
+  return fused ? std::fma(a, b, c) : static_cast<float>(static_cast<float>(a * b) + c);
+}
 
 // emit_coef4 with the start vertex s; positions less half a texel, as pixel_center does.
 Plane setup(const float* x, const float* y, const float* a, int s) {
@@ -98,8 +100,10 @@ Tally run(bool perspective, int frame_size, int triangles) {
         inside = inside && edge[k] >= 0;
       }
       if (!inside || i < 0 || j < 0) continue;
-      const long double exact_p = edge[0] * p[0] + edge[1] * p[1] + edge[2] * p[2], exact_q = edge[0] * q[0] + edge[1] * q[1] + edge[2] * q[2];
-      const double exact = static_cast<double>(perspective ? exact_p / exact_q : edge[0] * value[0] + edge[1] * value[1] + edge[2] * value[2]);
+      const long double exact_p = edge[0] * p[0] + edge[1] * p[1] + edge[2] * p[2],
+                        exact_q = edge[0] * q[0] + edge[1] * q[1] + edge[2] * q[2];
+      const double exact =
+          static_cast<double>(perspective ? exact_p / exact_q : edge[0] * value[0] + edge[1] * value[1] + edge[2] * value[2]);
       double bound = plane_p.at(i + 0.5, j + 0.5);
       if (perspective) bound = quotient_bound(bound, plane_q.at(i + 0.5, j + 0.5), exact, static_cast<double>(exact_q), device);
       ++tally.samples;
@@ -147,7 +151,8 @@ TEST_CASE("perspective interpolation in float32, displaced window positions incl
 
 TEST_CASE("a sliver whose setup loses all digits has an infinite bound") {
   TriangleGeometry g{.x = {0, 4096, 2048}, .y = {0, 4095, 2047.5 + 1.0 / 256}};
-  CHECK(std::isfinite(PlaneBound({.x = {0, 100, 0}, .y = {0, 0, 100}, .exact_positions = true}, {0, 1, 2}, 0, llvmpipe_model()).at(10, 10)));
+  CHECK(
+      std::isfinite(PlaneBound({.x = {0, 100, 0}, .y = {0, 0, 100}, .exact_positions = true}, {0, 1, 2}, 0, llvmpipe_model()).at(10, 10)));
   g.x[2] = 2048.5;
   g.y[2] = 2048;  // area of about a texel over edges of 4096: P/|A| about 2^24
   CHECK(std::isinf(PlaneBound(g, {0, 1, 2}, 0, llvmpipe_model()).at(1024.5, 1024.5)));
@@ -190,7 +195,8 @@ TEST_CASE("the texel coordinate in float32 stays within its margin bound, wrappe
     const double exact = static_cast<double>(u) * size;
     const auto s = static_cast<float>(size);
     REQUIRE(std::abs(static_cast<double>(u * s) - exact) <= texel_margin_bound(static_cast<double>(u), 0, size, false, false, device));
-    REQUIRE(std::abs(static_cast<double>(u * s - 0.5f) - (exact - 0.5)) <= texel_margin_bound(static_cast<double>(u), 0, size, false, true, device));
+    REQUIRE(std::abs(static_cast<double>(u * s - 0.5f) - (exact - 0.5)) <=
+            texel_margin_bound(static_cast<double>(u), 0, size, false, true, device));
     const float fraction = u - std::floor(u);
     const double wrapped = static_cast<double>(fraction * s) - (exact - static_cast<double>(std::floor(u)) * size);
     REQUIRE(std::abs(wrapped) <= texel_margin_bound(static_cast<double>(u), 0, size, true, false, device));

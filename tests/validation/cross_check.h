@@ -18,18 +18,19 @@ struct CrossCheckTotals {
   std::array<validation::ClassCounts, kSceneKindCount> by_kind{};
   validation::ClassCounts total;
   std::array<std::uint64_t, validation::kCauseCount> unexplained_by{};
-  double largest_rounding_share = 0, largest_tie_share = 0;
-  std::vector<std::string> failures;  ///< "seed N: sentence", the first few
+  std::array<double, kSceneKindCount> rounding_share{}, tie_share{};  ///< the largest share of a bound that was needed
+  std::vector<std::string> failures;                                  ///< "seed N: sentence", the first few
 };
 
 struct CrossCheckOptions {
   std::uint64_t first_seed = 0;
-  std::uint64_t texels = 20'000'000;  ///< stops at the first seed after which so many were compared
-  int largest = 512;                  ///< texels a side
+  std::uint64_t texels = 20'000'000;                      ///< stops at the first seed after which so many were compared
+  int largest = 512;                                      ///< texels a side
   std::function<void(const CrossCheckTotals&)> progress;  ///< after each seed
 };
 
-[[nodiscard]] CrossCheckTotals cross_check(Renderer& golden, Renderer& candidate, const validation::DeviceModel& device, const CrossCheckOptions& options);
+[[nodiscard]] CrossCheckTotals cross_check(Renderer& golden, Renderer& candidate, const validation::DeviceModel& device,
+                                           const CrossCheckOptions& options);
 
 /// One line per kind of scene, and the sum.
 [[nodiscard]] std::string format_totals(const CrossCheckTotals& totals);

@@ -21,8 +21,11 @@ TEST_CASE("coverage, visibility and values agree with the renderer on random sce
     test::RandomScene scene = test::make_random_scene(seed, {}, 96);
     scene.frame.state.fill_rule = static_cast<FillRule>(seed % 4);
     scene.frame.state.cull = static_cast<CullMode>(seed % 3);
-    scene.frame.targets = {{TargetContent::triangle_id, kR32ui}, {TargetContent::depth, kR32f}, {TargetContent::coordinate, kRg32f},
-                           {TargetContent::barycentrics, {ChannelType::float32, 3}}, {TargetContent::margins, kRgba32f}};
+    scene.frame.targets = {{TargetContent::triangle_id, kR32ui},
+                           {TargetContent::depth, kR32f},
+                           {TargetContent::coordinate, kRg32f},
+                           {TargetContent::barycentrics, {ChannelType::float32, 3}},
+                           {TargetContent::margins, kRgba32f}};
     const auto images = cpu.render(scene.list, scene.frame);
     const TriangleGrid grid(scene.list, scene.frame);
     std::vector<TriangleEvaluator> evaluators;
@@ -42,7 +45,8 @@ TEST_CASE("coverage, visibility and values agree with the renderer on random sce
             nearest = z;
           }
         }
-        for (const TriangleEvaluator& e : evaluators) missed += e.covers(x, y) && std::find(grid.begin(x, y), grid.end(x, y), e.id()) == grid.end(x, y);
+        for (const TriangleEvaluator& e : evaluators)
+          missed += e.covers(x, y) && std::find(grid.begin(x, y), grid.end(x, y), e.id()) == grid.end(x, y);
         const std::uint32_t id = *images[0].channels<std::uint32_t>(x, y);
         wrong += visible != id;
         if (visible != id || id == kNoTriangle) continue;
@@ -81,11 +85,13 @@ TEST_CASE("wide positions: edge values beyond 64 bits stay exact") {
   const TriangleEvaluator e(list, 0, frame);
   for (int i = 0; i < 4; ++i) {
     CHECK(e.touches(i, i));  // the diagonal runs through the sample centres
-    CHECK(e.covers(i, i) != TriangleEvaluator(list, 0, [&] {
-            Frame other = frame;
-            other.state.fill_rule = FillRule::right_ymax;
-            return other;
-          }()).covers(i, i));
+    CHECK(e.covers(i, i) != TriangleEvaluator(list, 0,
+                                              [&] {
+                                                Frame other = frame;
+                                                other.state.fill_rule = FillRule::right_ymax;
+                                                return other;
+                                              }())
+                                .covers(i, i));
   }
   CHECK(e.covers(2, 1));
   CHECK_FALSE(e.covers(1, 2));

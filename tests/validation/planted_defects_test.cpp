@@ -157,7 +157,9 @@ TEST_CASE("a flipped v, a wrong wrap and a wrong filter are named") {
     for (RasterVertex& v : l.vertices) v.uv.y = 1 - v.uv.y;
   });
   name_of("wrap clamp", [](DrawList& l) { l.draws[0].sampler = {Filter::nearest, Wrap::clamp, Wrap::clamp}; });
-  name_of("wrap mirrored_repeat", [](DrawList& l) { l.draws[0].sampler = {Filter::nearest, Wrap::mirrored_repeat, Wrap::mirrored_repeat}; });
+  name_of("wrap mirrored_repeat", [](DrawList& l) {
+    l.draws[0].sampler = {Filter::nearest, Wrap::mirrored_repeat, Wrap::mirrored_repeat};
+  });
   name_of("filter linear", [](DrawList& l) { l.draws[0].sampler.filter = Filter::linear; });
 }
 
@@ -189,6 +191,27 @@ TEST_CASE("one wrong bit in a nearest-filtered unorm target is caught and called
   }
 }
 
+TEST_CASE("one wrong unit is caught even where the device filters in 8 bits: its arithmetic is known") {
+  gpu::GlRenderer* gl = llvmpipe_or_skip("planted: one unit under 8-bit linear");
+  if (gl == nullptr) return;
+  Case c = sound_case(*gl, {{TargetContent::color, kRgba8}, kId}, {Filter::linear, Wrap::repeat, Wrap::repeat});
+  c.compare();
+  REQUIRE(c.unexplained() == 0);
+  REQUIRE(c.diff.counts[TexelClass::rounding] > 10000);
+  int caught = 0;
+  for (int n = 0; n < 100; ++n) {
+    const int x = 60 + 7 * (n % 10), y = 60 + 7 * (n / 10);
+    const auto value = static_cast<int>(c.candidate[0].texel(x, y)[1]);
+    // Towards the oracle's value or beyond it: either is wrong for this device.
+    c.candidate[0].texel(x, y)[1] = static_cast<std::byte>(value < 255 ? value + 1 : value - 1);
+  }
+  c.compare();
+  caught = static_cast<int>(c.unexplained());
+  // A coordinate within the bound of two positions of 1/256 texel has two legal values; few are that near.
+  CHECK(caught >= 85);
+  MESSAGE("of 100 wrong units under 8-bit linear filtering, caught: ", caught);
+}
+
 TEST_CASE("one wrong last bit of an interpolated float32 is not claimed to be seen") {
   gpu::GlRenderer* gl = llvmpipe_or_skip("planted: one wrong float bit");
   if (gl == nullptr) return;
@@ -205,7 +228,8 @@ TEST_CASE("one wrong last bit of an interpolated float32 is not claimed to be se
 TEST_CASE("undeclared truncation of halves is caught and named: the device's own, where the oracle was told nearest even") {
   gpu::GlRenderer* gl = llvmpipe_or_skip("planted: half toward zero");
   if (gl == nullptr) return;
-  if (gl->device().half_rounding != HalfRounding::toward_zero) return test::report_skip("planted: half toward zero", "this device rounds halves to nearest");
+  if (gl->device().half_rounding != HalfRounding::toward_zero)
+    return test::report_skip("planted: half toward zero", "this device rounds halves to nearest");
   Case c = sound_case(*gl, {{TargetContent::coordinate, {ChannelType::half, 2}}, kId});
   c.frame.state.half_rounding = HalfRounding::nearest_even;
   raster::CpuRenderer cpu;
@@ -293,7 +317,9 @@ TEST_CASE("another sub-texel rounding is named where the scene can be made again
   const auto scene = [&](SnapRounding snap) {
     std::vector<RasterVertex> corners;
     for (const Vec2d& p : positions) {
-      const auto grid = [&](double x) { return snap == SnapRounding::floor || snap == SnapRounding::toward_zero ? std::floor(x * 256) / 256 : std::nearbyint(x * 256) / 256; };
+      const auto grid = [&](double x) {
+        return snap == SnapRounding::floor || snap == SnapRounding::toward_zero ? std::floor(x * 256) / 256 : std::nearbyint(x * 256) / 256;
+      };
       corners.push_back(at(grid(p.x), grid(p.y), {}, {1, 1, 1, 1}));
     }
     return test::list_of(corners);

@@ -51,8 +51,9 @@ std::shared_ptr<const Image> random_texture(Rng& rng, PixelFormat format, bool f
 
 // A map whose texels are coordinates of the second image, some of them exactly on its texel borders.
 std::shared_ptr<const Image> random_map(Rng& rng, const Image& source, bool filtered) {
-  const PixelFormat format = one_of(rng, {PixelFormat{ChannelType::unorm16, 2}, PixelFormat{ChannelType::float32, 2}, PixelFormat{ChannelType::half, 2},
-                                          PixelFormat{ChannelType::unorm8, 2}, PixelFormat{ChannelType::float32, 4}});
+  const PixelFormat format =
+      one_of(rng, {PixelFormat{ChannelType::unorm16, 2}, PixelFormat{ChannelType::float32, 2}, PixelFormat{ChannelType::half, 2},
+                   PixelFormat{ChannelType::unorm8, 2}, PixelFormat{ChannelType::float32, 4}});
   Image map(random_size(rng, 200), random_size(rng, 200), format);
   const double jitter = filtered ? 0 : rng.unit() * 0.01;
   for (int y = 0; y < map.height(); ++y) {
@@ -132,7 +133,8 @@ class SceneMaker {
     if (random_uv) {
       v.uv = Vec2f(static_cast<float>(rng_.unit() * 3 - 1), static_cast<float>(rng_.unit() * 3 - 1));
     } else {
-      v.uv = Vec2f(static_cast<float>(scale_x_ * px + shear_x_ * py + shift_x_), static_cast<float>(scale_y_ * py + shear_y_ * px + shift_y_));
+      v.uv =
+          Vec2f(static_cast<float>(scale_x_ * px + shear_x_ * py + shift_x_), static_cast<float>(scale_y_ * py + shear_y_ * px + shift_y_));
     }
     for (int c = 0; c < 4; ++c) v.color[c] = static_cast<float>(rng_.unit());
     return v;
@@ -160,7 +162,8 @@ class SceneMaker {
       const double x = rng_.unit() * scene_.frame.width, y = rng_.unit() * scene_.frame.height;
       const double dx = (rng_.unit() - 0.5) * scene_.frame.width, dy = (rng_.unit() - 0.5) * scene_.frame.height;
       const double off = static_cast<double>(rng_.between(1, 64)) / grid_, along = rng_.unit();
-      triangle(vertex(x, y, perspective, true), vertex(x + dx, y + dy, perspective, true), vertex(x + along * dx + off, y + along * dy - off, perspective, true));
+      triangle(vertex(x, y, perspective, true), vertex(x + dx, y + dy, perspective, true),
+               vertex(x + along * dx + off, y + along * dy - off, perspective, true));
     }
   }
 
@@ -193,8 +196,10 @@ class SceneMaker {
     for (int n = 0; n < count; ++n) {
       const double step = one_of(rng_, {1.0, 0.5, 1.0 / grid_});
       const auto coordinate = [&](int extent) { return std::floor(rng_.unit() * extent / step) * step; };
-      const double x0 = coordinate(scene_.frame.width), x1 = coordinate(scene_.frame.width), y0 = coordinate(scene_.frame.height), y1 = coordinate(scene_.frame.height);
-      const RasterVertex a = vertex(x0, y0, false, false), b = vertex(x1, y0, false, false), c = vertex(x1, y1, false, false), d = vertex(x0, y1, false, false);
+      const double x0 = coordinate(scene_.frame.width), x1 = coordinate(scene_.frame.width), y0 = coordinate(scene_.frame.height),
+                   y1 = coordinate(scene_.frame.height);
+      const RasterVertex a = vertex(x0, y0, false, false), b = vertex(x1, y0, false, false), c = vertex(x1, y1, false, false),
+                         d = vertex(x0, y1, false, false);
       triangle(a, b, c);
       triangle(a, c, d);
     }
@@ -224,14 +229,16 @@ class SceneMaker {
 };
 
 Sampler random_sampler(Rng& rng, Filter filter) {
-  return {filter, one_of(rng, {Wrap::clamp, Wrap::repeat, Wrap::mirrored_repeat}), one_of(rng, {Wrap::clamp, Wrap::repeat, Wrap::mirrored_repeat})};
+  return {filter, one_of(rng, {Wrap::clamp, Wrap::repeat, Wrap::mirrored_repeat}),
+          one_of(rng, {Wrap::clamp, Wrap::repeat, Wrap::mirrored_repeat})};
 }
 
 }  // namespace
 
 std::string to_string(SceneKind kind) {
-  constexpr const char* kNames[] = {"affine colour", "affine nearest", "affine linear", "perspective colour", "perspective nearest", "perspective linear",
-                                    "depth", "indexed", "slivers", "shared mesh", "rectangles"};
+  constexpr const char* kNames[] = {
+      "affine colour", "affine nearest", "affine linear", "perspective colour", "perspective nearest", "perspective linear",
+      "depth",         "indexed",        "slivers",       "shared mesh",        "rectangles"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -270,16 +277,15 @@ RandomScene make_random_scene(std::uint64_t seed, const RasterState& device_stat
 
   SceneMaker make(rng, scene);
   make.choose_mapping(mapped_width, mapped_height);
-  const bool perspective = kind == SceneKind::perspective_color || kind == SceneKind::perspective_nearest || kind == SceneKind::perspective_linear ||
+  const bool perspective = kind == SceneKind::perspective_color || kind == SceneKind::perspective_nearest ||
+                           kind == SceneKind::perspective_linear ||
                            ((kind == SceneKind::slivers || kind == SceneKind::shared_mesh || kind == SceneKind::indexed) && rng.coin());
   switch (kind) {
     case SceneKind::slivers: make.slivers(200, perspective); break;
     case SceneKind::shared_mesh: make.mesh(static_cast<int>(rng.between(2, 24)), rng.unit() * 0.8, perspective); break;
     case SceneKind::rectangles: make.rectangles(24); break;
     case SceneKind::depth: make.depth_pairs(12); break;
-    default:
-      make.random_triangles(12, 1.5, perspective);
-      make.random_triangles(60, 0.2, perspective);
+    default: make.random_triangles(12, 1.5, perspective); make.random_triangles(60, 0.2, perspective);
   }
   if (kind == SceneKind::rectangles || kind == SceneKind::slivers) scene.frame.state.depth_test = rng.coin();
   draw.triangle_count = static_cast<std::uint32_t>(scene.list.triangles.size());

@@ -9,7 +9,17 @@
 namespace etalon::test {
 
 enum class SceneKind : std::uint8_t {
-  affine_color, affine_nearest, affine_linear, perspective_color, perspective_nearest, perspective_linear, depth, indexed, slivers, shared_mesh, rectangles,
+  affine_color,
+  affine_nearest,
+  affine_linear,
+  perspective_color,
+  perspective_nearest,
+  perspective_linear,
+  depth,
+  indexed,
+  slivers,
+  shared_mesh,
+  rectangles,
 };
 inline constexpr int kSceneKindCount = 11;
 [[nodiscard]] std::string to_string(SceneKind kind);

@@ -30,7 +30,9 @@ TEST_CASE("every half is the rounding of exactly the numbers of its preimage, bo
       }
       REQUIRE(p.lo < p.hi);
       const double lo = std::isinf(p.lo) ? -1e30 : p.lo, hi = std::isinf(p.hi) ? 1e30 : p.hi;
-      const auto same = [&](double x) { return ((round(x) ^ half) & (h % 0x8000 == 0 ? 0x7FFF : 0xFFFF)) == 0; };  // both zeros are one number
+      const auto same = [&](double x) {
+        return ((round(x) ^ half) & (h % 0x8000 == 0 ? 0x7FFF : 0xFFFF)) == 0;
+      };  // both zeros are one number
       REQUIRE(same(lo + (hi - lo) * 0.5));
       REQUIRE(same(std::nextafter(lo, hi)));
       REQUIRE(same(std::nextafter(hi, lo)));
@@ -72,14 +74,17 @@ TEST_CASE("a float32 product and round, as devices convert to unorm, is legal fo
     REQUIRE(check_stored(bytes(code16), {ChannelType::unorm16, 1}, 0, HalfRounding::nearest_even, exact, device).legal);
     const auto next8 = static_cast<std::uint8_t>(code8 == 255 ? 254 : code8 + 1);
     const double to_tie = std::abs(std::abs(static_cast<double>(clamped) * 255 - code8) - 0.5);
-    if (to_tie > 2e-5) REQUIRE_FALSE(check_stored(bytes(next8), {ChannelType::unorm8, 1}, 0, HalfRounding::nearest_even, exact, device).legal);
+    if (to_tie > 2e-5)
+      REQUIRE_FALSE(check_stored(bytes(next8), {ChannelType::unorm8, 1}, 0, HalfRounding::nearest_even, exact, device).legal);
   }
 }
 
 TEST_CASE("the share of the bound that is needed") {
   const DeviceModel device = llvmpipe_model();
   const PixelFormat r32f{ChannelType::float32, 1};
-  const auto share = [&](float stored, double value, double bound) { return check_stored(bytes(stored), r32f, 0, HalfRounding::nearest_even, {value, bound}, device); };
+  const auto share = [&](float stored, double value, double bound) {
+    return check_stored(bytes(stored), r32f, 0, HalfRounding::nearest_even, {value, bound}, device);
+  };
   CHECK(share(1.0f, 1.0, 1e-6).share == 0);
   CHECK(share(1.5f, 1.0, 1.0).share == doctest::Approx(0.5));
   CHECK(share(1.5f, 1.0, 1.0).legal);

@@ -132,7 +132,8 @@ TEST_CASE("stored toward zero: unorm and half values between two codes are unexp
 TEST_CASE("nearest: the neighbour across a border within the bound is a tie, any other texel is not") {
   // u·16 = x + ½ exactly at every sample shifted by half a texel: each sample lies on the border of texels x and x + 1.
   const auto texture = test::busy_texture(16, 16);
-  const DrawList list = test::quad(16, 16, {0.5f / 16, 0.25f / 16}, {1 + 0.5f / 16, 1 + 0.25f / 16}, texture, {Filter::nearest, Wrap::repeat, Wrap::repeat});
+  const DrawList list =
+      test::quad(16, 16, {0.5f / 16, 0.25f / 16}, {1 + 0.5f / 16, 1 + 0.25f / 16}, texture, {Filter::nearest, Wrap::repeat, Wrap::repeat});
   const Frame frame = frame_of(16, 16, {{TargetContent::color, kRgba8}});
   const auto golden = exact(list, frame);
   const auto put = [&](int dx, int dy) {
@@ -161,7 +162,9 @@ TEST_CASE("coverage has bound 0: a texel missing or drawn beyond an edge is unex
   const DrawList list = list_of({at(2.5, 2.5, {}, {1, 1, 1, 1}), at(12.5, 2.5, {}, {1, 1, 1, 1}), at(2.5, 12.5, {}, {1, 1, 1, 1})});
   for (const bool with_ids : {true, false}) {
     CAPTURE(with_ids);
-    const Frame frame = frame_of(16, 16, with_ids ? std::vector<TargetSpec>{{TargetContent::color, kRgba8}, kId} : std::vector<TargetSpec>{{TargetContent::color, kRgba8}});
+    const Frame frame = frame_of(
+        16, 16,
+        with_ids ? std::vector<TargetSpec>{{TargetContent::color, kRgba8}, kId} : std::vector<TargetSpec>{{TargetContent::color, kRgba8}});
     const auto golden = exact(list, frame);
     // (2, 5) lies on the left edge, which owns it; (5, 9) on the diagonal, which does not.
     REQUIRE(golden[0].texel(2, 5)[0] == std::byte{255});
@@ -180,12 +183,14 @@ TEST_CASE("coverage has bound 0: a texel missing or drawn beyond an edge is unex
 TEST_CASE("depth order: nearly equal planes are a tie with the other triangle's values, a clear gap is not") {
   const auto pair = [](float gap) {
     const Vec4f white{1, 1, 1, 1}, grey{0.5f, 0.5f, 0.5f, 1};
-    return list_of({at(0, 0, {}, white, 0.3f), at(32, 0, {}, white, 0.7f), at(0, 32, {}, white, 0.4f), at(0, 0, {}, grey, 0.3f + gap), at(32, 0, {}, grey, 0.7f + gap),
-                    at(0, 32, {}, grey, 0.4f + gap)});
+    return list_of({at(0, 0, {}, white, 0.3f), at(32, 0, {}, white, 0.7f), at(0, 32, {}, white, 0.4f), at(0, 0, {}, grey, 0.3f + gap),
+                    at(32, 0, {}, grey, 0.7f + gap), at(0, 32, {}, grey, 0.4f + gap)});
   };
   for (const bool with_ids : {true, false}) {
     CAPTURE(with_ids);
-    const Frame frame = frame_of(32, 32, with_ids ? std::vector<TargetSpec>{{TargetContent::color, kRgba8}, kId} : std::vector<TargetSpec>{{TargetContent::color, kRgba8}});
+    const Frame frame = frame_of(
+        32, 32,
+        with_ids ? std::vector<TargetSpec>{{TargetContent::color, kRgba8}, kId} : std::vector<TargetSpec>{{TargetContent::color, kRgba8}});
     const auto swap_at = [&](const DrawList& list) {
       const auto golden = exact(list, frame);
       auto candidate = golden;
@@ -203,7 +208,8 @@ TEST_CASE("depth order: nearly equal planes are a tie with the other triangle's 
 TEST_CASE("an id that changes without the values of its triangle is unexplained") {
   const Frame frame = frame_of(32, 32, {{TargetContent::color, kRgba8}, kId});
   const Vec4f white{1, 1, 1, 1}, grey{0.5f, 0.5f, 0.5f, 1};
-  const DrawList list = list_of({at(0, 0, {}, white), at(32, 0, {}, white), at(0, 32, {}, white), at(0, 0, {}, grey), at(32, 0, {}, grey), at(0, 32, {}, grey)});
+  const DrawList list = list_of(
+      {at(0, 0, {}, white), at(32, 0, {}, white), at(0, 32, {}, white), at(0, 0, {}, grey), at(32, 0, {}, grey), at(0, 32, {}, grey)});
   const auto golden = exact(list, frame);
   auto candidate = golden;
   *candidate[1].channels<std::uint32_t>(5, 6) = 1;
@@ -277,10 +283,10 @@ TEST_CASE("what cannot be compared is refused with a reason") {
   const DrawList list = gradient_triangle();
   const auto golden = exact(list, frame);
   const auto refuse = [&](std::vector<Image> a, std::vector<Image> b) { CHECK_THROWS_AS((void)diff(list, frame, a, b), InputError); };
-  refuse({golden[0]}, golden);                                 // one image short
-  refuse(golden, {Image(16, 15, kRgba8), golden[1]});          // another size
-  refuse(golden, {Image(16, 16, kRgba32f), golden[1]});        // another format
-  refuse({golden[0], Image()}, {Image(), golden[1]});          // nothing on both sides
+  refuse({golden[0]}, golden);                           // one image short
+  refuse(golden, {Image(16, 15, kRgba8), golden[1]});    // another size
+  refuse(golden, {Image(16, 16, kRgba32f), golden[1]});  // another format
+  refuse({golden[0], Image()}, {Image(), golden[1]});    // nothing on both sides
   CHECK(diff(list, frame, {golden[0], Image()}, {golden[0], golden[1]}).agreed());
 }
 

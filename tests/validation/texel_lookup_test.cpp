@@ -72,16 +72,20 @@ TEST_CASE("the linear value is the renderer's, and its bound holds for moved coo
         const Frame frame = test::frame_of(1, 1, {{TargetContent::color, kRgba32f}});
         raster::CpuRenderer cpu;
         const auto drawn = cpu.render(list, frame);
-        const Choice choice = linear_choice(plan_lookup(*image, sampler, {static_cast<double>(uv.x), static_cast<double>(uv.y), 0, 0}, contract_model()), contract_model());
+        const Choice choice = linear_choice(
+            plan_lookup(*image, sampler, {static_cast<double>(uv.x), static_cast<double>(uv.y), 0, 0}, contract_model()), contract_model());
         for (int c = 0; c < 4; ++c) {
           const double value = choice.value[static_cast<std::size_t>(c)].value;
           CHECK(std::abs(static_cast<double>(drawn[0].channels<float>(0, 0)[c]) - value) <= 0x1p-24 * std::abs(value) * 1.001 + 1e-15);
         }
         // A coordinate anywhere within the error gives a value within the bound.
         const double error = 0.02 * rng.unit();
-        const Choice bounded = linear_choice(plan_lookup(*image, sampler, {static_cast<double>(uv.x), static_cast<double>(uv.y), error, error}, llvmpipe_model()), llvmpipe_model());
+        const Choice bounded = linear_choice(
+            plan_lookup(*image, sampler, {static_cast<double>(uv.x), static_cast<double>(uv.y), error, error}, llvmpipe_model()),
+            llvmpipe_model());
         for (int m = 0; m < 8; ++m) {
-          const double u = static_cast<double>(uv.x) + error * (2 * rng.unit() - 1), v = static_cast<double>(uv.y) + error * (2 * rng.unit() - 1);
+          const double u = static_cast<double>(uv.x) + error * (2 * rng.unit() - 1),
+                       v = static_cast<double>(uv.y) + error * (2 * rng.unit() - 1);
           const Choice moved = linear_choice(plan_lookup(*image, sampler, {u, v, 0, 0}, contract_model()), contract_model());
           for (std::size_t c = 0; c < 4; ++c) CHECK(std::abs(moved.value[c].value - bounded.value[c].value) <= bounded.value[c].bound);
         }
@@ -122,7 +126,9 @@ TEST_CASE("srgb: gallivm's polynomial keeps every byte on its own side of the th
     const Bounded value = device_texel(texel, 0, 0, 0, llvmpipe_model());
     CHECK(std::abs(srgb_polynomial_decode(k) - value.value) <= value.bound);
     CHECK(value.bound < 0.004);
-    CHECK(check_stored(reinterpret_cast<const std::byte*>(texel.texel(0, 0)), texel.format(), 0, HalfRounding::nearest_even, {srgb_polynomial_decode(k), 0}, llvmpipe_model()).legal);
+    CHECK(check_stored(reinterpret_cast<const std::byte*>(texel.texel(0, 0)), texel.format(), 0, HalfRounding::nearest_even,
+                       {srgb_polynomial_decode(k), 0}, llvmpipe_model())
+              .legal);
   }
 }
 
