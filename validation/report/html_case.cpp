@@ -72,7 +72,7 @@ std::string facts(const TargetResult& target) {
   list += fact("PSNR", psnr ? fmt::format("{:.2f} dB", *psnr) : "∞ (identical)");
   list += is_float(d.format.type) ? fact("squared error", fmt::format("{:.3g}", d.total.squared_error)) : fact("squared error", grouped(d.total.sse));
   list += fact("largest difference", is_float(d.format.type) ? fmt::format("{:.3g}", d.total.max_abs) : fmt::format("{:.0f}", d.total.max_abs));
-  list += fact("there", d.total.max_x < 0 ? "–" : fmt::format("({}, {})", d.total.max_x, d.total.max_y));
+  list += fact("first at", d.total.max_x < 0 ? "–" : fmt::format("({}, {})", d.total.max_x, d.total.max_y));
   return "<dl class=\"facts wide\">" + list + "</dl>";
 }
 
@@ -113,15 +113,15 @@ std::string histogram(const TargetResult& target) {
   const double step = std::min(1000.0 / static_cast<double>(bins.size()), 120.0);
   std::string bars;
   for (std::size_t i = 0; i < bins.size(); ++i) {
-    const double height = 90 * (decibel(static_cast<double>(bins[i].count)) / 10 + 0.3) / highest;
+    const double height = 62 * (decibel(static_cast<double>(bins[i].count)) / 10 + 0.3) / highest;
     const double x = static_cast<double>(i) * step;
-    bars += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"2\"><title>{}: {} samples</title></rect>", x + 3, 112 - height, step - 6, height,
+    bars += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"2\"><title>{}: {} samples</title></rect>", x + 3, 82 - height, step - 6, height,
                         bin_name(bins[i]), grouped(bins[i].count));
-    bars += fmt::format("<text x=\"{0:.1f}\" y=\"{1:.1f}\" text-anchor=\"middle\">{2}</text><text x=\"{0:.1f}\" y=\"127\" text-anchor=\"middle\">{3}</text>", x + step / 2, 107 - height,
+    bars += fmt::format("<text x=\"{0:.1f}\" y=\"{1:.1f}\" text-anchor=\"middle\">{2}</text><text x=\"{0:.1f}\" y=\"97\" text-anchor=\"middle\">{3}</text>", x + step / 2, 77 - height,
                         grouped(bins[i].count), bin_name(bins[i]));
   }
   const char* unit = is_float(difference.format.type) ? "units in the last place" : "stored units";
-  return fmt::format("<figure class=\"histogram wide\"><svg viewBox=\"0 0 1000 132\" role=\"img\" aria-label=\"Histogram of differences\"><line x1=\"0\" x2=\"1000\" y1=\"112.5\" y2=\"112.5\"/>{}</svg>"
+  return fmt::format("<figure class=\"histogram wide\"><svg viewBox=\"0 0 1000 102\" role=\"img\" aria-label=\"Histogram of differences\"><line x1=\"0\" x2=\"1000\" y1=\"82.5\" y2=\"82.5\"/>{}</svg>"
                      "<figcaption><span>Samples by size of their difference, in {}; logarithmic height.</span></figcaption></figure>",
                      bars, unit);
 }
@@ -138,8 +138,8 @@ std::string worst_texels(const CaseResult& item) {
     cards += fmt::format("<div class=\"what\"><b class=\"mono\">({}, {})</b> &nbsp;{}<dl><dt>CPU</dt><dd>{}</dd><dt>GL</dt><dd>{}</dd></dl></div><p class=\"why\">{}</p></div>", texel.x,
                          texel.y, class_chip(texel.texel_class), escaped(texel.cpu_value), escaped(texel.gl_value), escaped(texel.explanation));
   }
-  const char* lead = item.tally.unexplained > 0 ? "unexplained ones first" : "all of them explained";
-  return fmt::format("<details{}><summary>The {} texels farthest from agreement, {}</summary><div class=\"worst\">{}</div></details>", item.tally.unexplained > 0 ? " open" : "",
+  const char* lead = item.tally.unexplained > 0 ? "unexplained ones first" : "none of them unexplained";
+  return fmt::format("<details{}><summary>{} texels farthest from agreement, {}</summary><div class=\"worst\">{}</div></details>", item.tally.unexplained > 0 ? " open" : "",
                      item.worst.size(), lead, cards);
 }
 
@@ -176,9 +176,9 @@ std::string case_article(const CaseResult& item, const std::string& id) {
   for (std::size_t i = 0; i < item.targets.size(); ++i) {
     html += fmt::format("<button role=\"tab\" type=\"button\" id=\"{0}-{1}-tab\" aria-controls=\"{0}-{1}\">{2}</button>", id, i, content_title(item.targets[i].content));
   }
-  html += "</div><div class=\"views\">" + class_figure(item);
+  html += "</div><div class=\"views\">";
   for (std::size_t i = 0; i < item.targets.size(); ++i) html += panel(item, item.targets[i], fmt::format("{}-{}", id, i));
-  return html + "</div>" + worst_texels(item) + "</article>";
+  return html + class_figure(item) + "</div>" + worst_texels(item) + "</article>";
 }
 
 }  // namespace etalon::validation

@@ -23,16 +23,23 @@ struct Banner {
   std::string sentence;
 };
 
+std::string agreement(const VerifyResult& result) {
+  const ClassTally total = result.total();
+  std::string text = fmt::format("{} texels were drawn by the exact rasterizer and by OpenGL. {} are the same bytes", grouped(total.texels), share(total.identical, total.texels));
+  if (total.rounding > 0) text += fmt::format("; {} differ by a legal rounding", grouped(total.rounding));
+  if (total.tie > 0) text += fmt::format("; {} fell the other way of a tie, proven by redrawing", grouped(total.tie));
+  if (total.unbounded > 0) text += fmt::format("; {} lie where the device's own arithmetic gives no useful bound", grouped(total.unbounded));
+  text += ".";
+  if (result.bounds_measured) text += " The device's bounds are not derived for it: this is agreement, not proof.";
+  return text;
+}
+
 Banner banner(const VerifyResult& result) {
   const ClassTally total = result.total();
   switch (verdict(result)) {
-    case Verdict::agreed:
-      return {"=", "Every texel is explained.",
-              fmt::format("{} texels drawn by the exact rasterizer and by OpenGL: {} are the same bytes, each of the other {} is a legal choice of the device, and none is unexplained.{}",
-                          grouped(total.texels), share(total.identical, total.texels), grouped(total.texels - total.identical),
-                          result.bounds_measured ? " The device's bounds were measured, not derived: this is agreement, not proof." : "")};
+    case Verdict::agreed: return {"=", total.unbounded == 0 ? "Every texel is explained." : "No texel is unexplained.", agreement(result)};
     case Verdict::not_compared:
-      return {"–", "Nothing was compared.", result.gl_unavailable.empty() ? "No job could be done on this input." : "OpenGL is not available: " + result.gl_unavailable};
+      return {"–", "Nothing was compared.", result.gl_unavailable.empty() ? "No job could be done on this input." : "OpenGL is not available: " + escaped(result.gl_unavailable) + ". The pictures of the exact side are below."};
     case Verdict::failed:
       return {"≠", fmt::format("{} texels are unexplained.", grouped(total.unexplained)),
               fmt::format("Of {} texels compared; one of the two renderers is wrong there. The diagnosis and the texels are below.", grouped(total.texels))};
@@ -54,17 +61,28 @@ std::string class_bar(const ClassTally& t) {
   return bar + "</div>";
 }
 
+// The first picture, beside the verdict: the script copies it from the first scene, so that it is embedded once.
+std::string hero(const VerifyResult& result) {
+  for (std::size_t j = 0; j < result.jobs.size(); ++j) {
+    if (result.jobs[j].cases.empty()) continue;
+    const CaseResult& item = result.jobs[j].cases.front();
+    return fmt::format("<figure class=\"hero\" data-from=\"case-{}-0\" hidden><a class=\"soft\" href=\"#case-{}-0\">{}</a></figure>", j, j, escaped(item.name()));
+  }
+  return "";
+}
+
 std::string verdict_section(const VerifyResult& result) {
   const ClassTally t = result.total();
   const Banner words = banner(result);
-  std::string html = fmt::format("<section class=\"verdict {}\" aria-label=\"Verdict\"><div class=\"verdict-head\"><div class=\"seal\" aria-hidden=\"true\">{}</div><div><strong>{}</strong><p>{}</p></div></div>",
+  std::string html = fmt::format("<section class=\"verdict {}\" aria-label=\"Verdict\"><div class=\"words\"><div class=\"verdict-head\"><div class=\"seal\" aria-hidden=\"true\">{}</div><div><strong>{}</strong><p>{}</p></div></div>",
                                  to_string(verdict(result)), words.seal, escaped(words.headline), words.sentence);
   if (t.texels > 0) {
-    html += class_bar(t) + "<dl class=\"tally\" style=\"margin:0\">" + tally_cell("identical", "identical", t.identical, t.texels) + tally_cell("rounding", "rounding", t.rounding, t.texels) +
-            tally_cell("tie", "tie", t.tie, t.texels);
-    html += tally_cell("unbounded", "unbounded", t.unbounded, t.texels) + tally_cell("unexplained", "unexplained", t.unexplained, t.texels) + "</dl>";
+    html += class_bar(t) + "<dl class=\"tally\">" + tally_cell("identical", "identical", t.identical, t.texels) + tally_cell("rounding", "rounding", t.rounding, t.texels) +
+            tally_cell("tie", "tie", t.tie, t.texels) + tally_cell("unbounded", "unbounded", t.unbounded, t.texels) + tally_cell("unexplained", "unexplained", t.unexplained, t.texels) + "</dl>";
   }
-  return html + "</section>";
+  html += fmt::format("<p class=\"sides\"><span>exact side</span> {}<br><span>device</span> {}</p></div>", escaped(result.cpu_name),
+                      escaped(result.gl_name.empty() ? "none" : result.gl_name));
+  return html + hero(result) + "</section>";
 }
 
 std::string number_cell(std::uint64_t count, bool alarm = false) {

@@ -10,6 +10,13 @@
     root.dataset.theme = dark ? 'light' : 'dark';
   });
 
+  // The first picture once more, beside the verdict.
+  for (const hero of document.querySelectorAll('.hero')) {
+    const source = document.getElementById(hero.dataset.from).querySelector('.frame');
+    hero.prepend(source.cloneNode(true));
+    hero.hidden = false;
+  }
+
   // The slider is a real range input: mouse, touch and arrow keys all work.
   for (const slider of document.querySelectorAll('.slider')) {
     const input = slider.querySelector('input');
@@ -48,7 +55,7 @@
   const TEXELS = 17, SCALE = 8;
   const show = (article, event, frame) => {
     const panel = article.querySelector('[role="tabpanel"]:not([hidden])');
-    const images = [['CPU, exact', panel.querySelector('.cpu')], ['OpenGL', panel.querySelector('.gl')], ['class', article.querySelector('.classes')]]
+    const images = [['CPU, exact', panel.querySelector('.cpu')], ['OpenGL', panel.querySelector('.gl')], ['class, enlarged', article.querySelector('.classes')]]
       .filter(([, image]) => image && image.naturalWidth);
     if (!images.length) return;
     const box = frame.getBoundingClientRect();

@@ -150,19 +150,25 @@ ValueRange drawn_range(const Image& depth) {
 
 Image class_picture(const Image& picture, const Image& classes, int reach) {
   ETALON_CHECK(picture.width() == classes.width() && picture.height() == classes.height(), "sizes differ");
+  constexpr auto kRounding = static_cast<std::uint8_t>(TexelClass::rounding);
   Image result(picture.width(), picture.height(), kRgb8);
   parallel_for(static_cast<std::size_t>(picture.height()), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < picture.width(); ++x) {
-      const std::uint8_t mark = dilated(classes, x, y, reach);
-      if (mark != 0) {
-        put(result, x, y, class_color(static_cast<TexelClass>(mark)));
-        continue;
-      }
       const auto* rgb = picture.channels<std::uint8_t>(x, y);
       const int luma = (54 * rgb[0] + 183 * rgb[1] + 19 * rgb[2]) >> 8;
-      const auto grey = static_cast<std::uint8_t>(22 + luma / 4);
-      put(result, x, y, {grey, grey, static_cast<std::uint8_t>(grey + 4)});
+      const int grey = 20 + luma * 5 / 16;
+      const std::uint8_t worst = dilated(classes, x, y, reach);
+      if (worst > kRounding) {
+        put(result, x, y, class_color(static_cast<TexelClass>(worst)));
+      } else if (*classes.channels<std::uint8_t>(x, y) == kRounding) {
+        const Rgb tint = class_color(TexelClass::rounding);
+        Rgb mixed{};
+        for (std::size_t c = 0; c < 3; ++c) mixed[c] = static_cast<std::uint8_t>((6 * tint[c] * (luma + 112) / 368 + 2 * grey) / 8);
+        put(result, x, y, mixed);
+      } else {
+        put(result, x, y, {static_cast<std::uint8_t>(grey), static_cast<std::uint8_t>(grey), static_cast<std::uint8_t>(grey + 4)});
+      }
     }
   });
   return result;

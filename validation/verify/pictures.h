@@ -25,8 +25,9 @@ struct ValueRange {
 };
 [[nodiscard]] ValueRange drawn_range(const Image& depth);
 
-/// The picture in faint grey, every texel whose class is not identical marked over (2·reach + 1)² texels, so that a
-/// lone one is seen even after reduced(). `classes`: R unorm8 of TexelClass values.
+/// The picture in faint grey; texels of class rounding, which may be most of them, tinted; worse ones marked in full colour over
+/// (2·reach + 1)² texels, so that a lone one is seen even after reduced(); where marks meet the worse class wins.
+/// `classes`: R unorm8 of TexelClass values.
 [[nodiscard]] Image class_picture(const Image& picture, const Image& classes, int reach = 1);
 
 /// Dark where equal; over (2·reach + 1)² texels, from violet to yellow by log2 of the largest channel difference in stored units (floats: ulp; ids: yellow).

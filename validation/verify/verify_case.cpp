@@ -1,6 +1,7 @@
 #include "validation/verify/verify_case.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 
@@ -61,13 +62,23 @@ std::string diagnosis_of(const DiffResult& diff) {
   return text.empty() ? text : text + ".";
 }
 
+std::string short_name(TargetContent content) { return content == TargetContent::triangle_id ? "id" : to_string(content); }
+
+// "texel (3, 4): triangle 7, …" → "Triangle 7, …": the place is shown apart.
+std::string without_place(const std::string& sentence) {
+  const std::size_t colon = sentence.rfind("texel (", 0) == 0 ? sentence.find("): ") : std::string::npos;
+  std::string text = colon == std::string::npos ? sentence : sentence.substr(colon + 3);
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 // The targets in which the two sides differ at a texel; all of them where none does.
 std::string side_text(const Pair& pair, const std::vector<Image>& side, const std::vector<TargetSpec>& targets, int x, int y) {
   std::string text;
   for (std::size_t t = 0; t < targets.size(); ++t) {
     const std::size_t size = static_cast<std::size_t>(bytes_per_texel(pair.cpu[t].format()));
     if (std::memcmp(pair.cpu[t].texel(x, y), pair.gl[t].texel(x, y), size) == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(targets[t].content), texel_text(side[t], x, y));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", short_name(targets[t].content), texel_text(side[t], x, y));
   }
   return text;
 }
@@ -79,18 +90,31 @@ WorstTexel worst_texel(const TexelReport& report, const Pair& pair, const std::v
   worst.texel_class = to_string(report.verdict.texel_class);
   worst.cpu_value = side_text(pair, pair.cpu, targets, report.x, report.y);
   worst.gl_value = side_text(pair, pair.gl, targets, report.x, report.y);
-  worst.explanation = report.sentence;
+  worst.explanation = without_place(report.sentence);
   const auto shown = static_cast<std::size_t>(std::max(report.verdict.target, 0));
   worst.cpu_crop = crop(pair.cpu_picture[shown], report.x, report.y, kCropSize);
   worst.gl_crop = crop(pair.gl_picture[shown], report.x, report.y, kCropSize);
   return worst;
 }
 
+// The worst first; but what is explained shares the room: of unbounded texels and of ties at most half each, of roundings one.
+std::vector<const TexelReport*> shown_reports(const std::vector<TexelReport>& worst, int count) {
+  std::vector<const TexelReport*> shown;
+  std::array<int, kClassCount> taken{};
+  for (const TexelReport& report : worst) {
+    const TexelClass texel_class = report.verdict.texel_class;
+    const int limit = texel_class == TexelClass::unexplained ? count : texel_class == TexelClass::rounding ? 1 : (count + 1) / 2;
+    if (static_cast<int>(shown.size()) < count && taken[static_cast<std::size_t>(texel_class)]++ < limit) shown.push_back(&report);
+  }
+  return shown;
+}
+
 void classify(CaseResult& item, const Pair& pair, const DrawList& list, const Frame& frame, const VerifyDevice& device, const VerifyOptions& options, int reach) {
-  const DiffResult diff = diff_images(list, frame, device.model, pair.cpu, pair.gl, {.worst_count = options.worst_count, .keep_class_image = true});
+  constexpr int kCandidates = 256;  // enough to find texels of each class among them
+  const DiffResult diff = diff_images(list, frame, device.model, pair.cpu, pair.gl, {.worst_count = kCandidates, .keep_class_image = true});
   item.tally = tally_of(diff.counts);
   item.diagnosis = diagnosis_of(diff);
-  for (const TexelReport& report : diff.worst) item.worst.push_back(worst_texel(report, pair, frame.targets));
+  for (const TexelReport* report : shown_reports(diff.worst, options.worst_count)) item.worst.push_back(worst_texel(*report, pair, frame.targets));
   item.class_picture = reduced(class_picture(pair.cpu_picture.front(), diff.class_image, reach), options.picture_px);
 }
 
@@ -150,9 +174,10 @@ void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Re
   draw_both(item, pair, list, frame, exact, device);
 
   const Stopwatch compare;
-  // A mark must survive the reduction of its picture, which keeps one texel of `step`.
-  const int step = (std::max(frame.width, frame.height) + options.picture_px - 1) / options.picture_px;
-  const int reach = std::max(step, 1);
+  // A mark must survive the reduction of its picture, which keeps one texel of `step`, and be seen where the page shows it some 340 px wide.
+  const int longest = std::max(frame.width, frame.height);
+  const int step = (longest + options.picture_px - 1) / options.picture_px;
+  const int reach = std::max({step, longest / 340, 1});
   picture_targets(pair, frame);
   if (device.renderer != nullptr) classify(item, pair, list, frame, device, options, reach);
   for (std::size_t t = 0; t < frame.targets.size(); ++t) item.targets.push_back(measure_target(pair, t, frame.targets[t], options.picture_px, reach));

@@ -1,0 +1,92 @@
+// Every JSON document against its schema, and the promise that only `run` may differ between runs.
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_command.h"
+#include "tests/cli/schema_validator.h"
+
+using namespace etalon::test;
+using nlohmann::json;
+
+namespace {
+
+json checked_document(const std::vector<std::string>& arguments, const std::string& schema_name, const ScratchFolder& folder, int exit_code = 0) {
+  std::vector<std::string> with_json = arguments;
+  with_json.insert(with_json.end(), {"--json", "-"});
+  const CommandResult result = run_etalon(with_json, {.folder = folder.path()});
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == exit_code);
+  const json document = json::parse(result.out);
+  const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/" + schema_name));
+  for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
+  return document;
+}
+
+}  // namespace
+
+TEST_CASE("make, info, render: documents match their schemas") {
+  const ScratchFolder folder;
+  const json made = checked_document({"make", "swirl", "--faces", "200", "--texture-size", "64", "-o", "swirl.obj"}, "make.json", folder);
+  CHECK(made["faces"] == 200);
+  CHECK(folder.listing() == std::vector<std::string>{"swirl.mtl", "swirl.obj", "swirl.png"});
+
+  const json mesh = checked_document({"info", "swirl.obj"}, "info.json", folder);
+  CHECK(mesh["kind"] == "mesh");
+  CHECK(mesh["mesh"]["faces"] == 200);
+  CHECK(mesh["materials"][0]["texture"]["sha256"] == made["texture"]["sha256"]);
+  const json image = checked_document({"info", "swirl.png"}, "info.json", folder);
+  CHECK(image["image"]["width"] == 64);
+  CHECK(image["image"]["sha256"] == made["texture"]["sha256"]);
+
+  const json png = checked_document({"render", "swirl.obj", "--size", "40x30", "-o", "swirl_40.png"}, "render.json", folder);
+  CHECK(png["width"] == 40);
+  CHECK(png["height"] == 30);
+  CHECK(png["targets"].size() == 1);
+  const json exr = checked_document({"render", "swirl.obj", "--size", "32", "--margins", "-o", "swirl_32.exr"}, "render.json", folder);
+  CHECK(exr["targets"].size() == 5);
+  const json content = checked_document({"info", "swirl_32.exr"}, "info.json", folder);
+  CHECK(content["kind"] == "exr");
+  CHECK(content["attributes"]["drawListSha256"] == exr["draw_list_sha256"]);
+  std::vector<std::string> channels;
+  for (const json& channel : content["channels"]) channels.push_back(channel["name"]);
+  CHECK(channels == std::vector<std::string>{"A", "B", "G", "R", "Z", "bound.uv", "bound.z", "id.triangle", "margin.edge", "margin.u", "margin.v", "margin.z"});
+}
+
+TEST_CASE("a model without texture coordinates has a document too") {
+  const ScratchFolder folder;
+  folder.file("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  CHECK(checked_document({"info", "plain.obj"}, "info.json", folder)["mesh"]["uv"].is_null());
+}
+
+TEST_CASE("verify: document, report and standard output say the same for 1, 2 and 7 threads") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "swirl", "--faces", "512", "--texture-size", "64", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code == 0);
+  std::string first;
+  for (const char* threads : {"1", "2", "7"}) {
+    const CommandResult result = run_etalon({"verify", "swirl.obj", "--size", "160x120", "--report", std::string("report") + threads, "--json", "verify.json", "--quiet", "--threads", threads},
+                                            {.folder = folder.path()});
+    REQUIRE((result.exit_code == 0 || result.exit_code == 1));  // 1: no OpenGL on this machine
+    CHECK(result.out.empty());
+    json document = json::parse(read_text(folder.path() / "verify.json"));
+    const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/verify.json"));
+    for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
+    CHECK(document["run"]["threads"] == std::stoi(threads));
+    json in_report = json::parse(read_text(folder.path() / (std::string("report") + threads) / "verify.json"));
+    document.erase("run");
+    in_report.erase("run");
+    CHECK(in_report == document);
+    if (first.empty()) first = document.dump();
+    CHECK(document.dump() == first);
+  }
+}
+
+TEST_CASE("the rendered bytes do not depend on threads, and '-' is standard output") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  const CommandResult one = run_etalon({"render", "square.obj", "--size", "64", "--threads", "1", "-o", "-"}, {.folder = folder.path()});
+  CHECK(one.exit_code == 0);
+  CHECK(one.out.substr(1, 3) == "PNG");
+  CHECK(run_etalon({"render", "square.obj", "--size", "64", "--threads", "7", "-o", "-"}, {.folder = folder.path()}).out == one.out);
+  CHECK(run_etalon({"render", "square.obj", "--size", "64", "-o", "square.png"}, {.folder = folder.path()}).exit_code == 0);
+  CHECK(read_text(folder.path() / "square.png") == one.out);
+}

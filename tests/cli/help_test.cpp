@@ -1,0 +1,33 @@
+#include <doctest/doctest.h>
+
+#include "tests/cli/run_command.h"
+
+using namespace etalon::test;
+
+TEST_CASE("--help: exit 0, on standard output, with an example for each verb") {
+  const CommandResult root = run_etalon({"--help"});
+  CHECK(root.exit_code == 0);
+  CHECK(root.err.empty());
+  for (const std::string verb : {"verify", "render", "info", "make"}) {
+    CAPTURE(verb);
+    CHECK(root.out.find(verb) != std::string::npos);
+    const CommandResult help = run_etalon({verb, "--help"});
+    CHECK(help.exit_code == 0);
+    CHECK(help.err.empty());
+    CHECK(help.out.find("Example:\n  etalon " + verb) != std::string::npos);
+    CHECK(help.out.find("--json") != std::string::npos);
+  }
+}
+
+TEST_CASE("--version, before and after the verb") {
+  const CommandResult root = run_etalon({"--version"});
+  CHECK(root.exit_code == 0);
+  CHECK(root.out.rfind("etalon 0.", 0) == 0);
+  CHECK(run_etalon({"verify", "--version"}).out == root.out);
+}
+
+TEST_CASE("help that cannot be written is an error") {
+  const CommandResult full = run_etalon({"--help"}, {.stdout_path = "/dev/full"});
+  CHECK(full.exit_code == 4);
+  CHECK(full.error_lines().size() == 1);
+}

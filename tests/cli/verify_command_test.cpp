@@ -1,0 +1,90 @@
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_command.h"
+#include "tests/support/skip.h"
+
+using namespace etalon::test;
+using nlohmann::json;
+
+namespace {
+
+bool has_gl(const CommandResult& result) { return result.out.find("GL: not available") == std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("verify: table, report line, exit code") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  const CommandResult result = run_etalon({"verify", "square.obj", "--size", "96x64"}, {.folder = folder.path()});
+  CAPTURE(result.out);
+  CHECK(result.err.empty());
+  CHECK(result.out.find("unbounded") != std::string::npos);
+  CHECK(result.out.find("\nreport: file:///") != std::string::npos);
+  CHECK(result.out.find("note: no texture and no colours: drawn with a checkerboard") != std::string::npos);
+  CHECK(folder.listing() == std::vector<std::string>{"etalon-report", "etalon-report/classes.csv", "etalon-report/index.html", "etalon-report/verify.json", "square.obj"});
+  if (!has_gl(result)) {
+    report_skip("verify: table, report line, exit code", "no OpenGL: comparison not tested");
+    CHECK(result.exit_code == 1);
+    return;
+  }
+  CHECK(result.exit_code == 0);
+  const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
+  CHECK(document["verdict"] == "agreed");
+  CHECK(document["total"]["unexplained"] == 0);
+  CHECK(document["total"]["texels"] == 6 * 96 * 64);
+}
+
+TEST_CASE("verify without OpenGL says why, draws what it can, and exits with 1") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  // Mesa then offers less than the 3.3 that is needed: the same path as a missing library.
+  const CommandResult result = run_etalon({"verify", "square.obj", "--size", "32"}, {.folder = folder.path(), .environment = {"MESA_GL_VERSION_OVERRIDE=2.1", "MESA_GLSL_VERSION_OVERRIDE=120"}});
+  CAPTURE(result.out);
+  CHECK(result.exit_code == 1);
+  CHECK(result.err.empty());
+  CHECK(result.out.find("GL: not available (") != std::string::npos);
+  CHECK(result.out.find("compared nothing") != std::string::npos);
+  const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
+  CHECK(document["verdict"] == "not_compared");
+  CHECK(document["renderers"]["gl"].is_null());
+  CHECK(document["total"]["texels"] == 0);
+
+  const CommandResult render = run_etalon({"render", "square.obj", "--backend", "gl", "-o", "a.png"}, {.folder = folder.path(), .environment = {"MESA_GL_VERSION_OVERRIDE=2.1"}});
+  CHECK(render.exit_code == 1);
+  CHECK(render.error_lines().size() == 1);
+}
+
+TEST_CASE("a model without texture coordinates: the indexed job is skipped, not an error") {
+  const ScratchFolder folder;
+  folder.file("plain.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+  const CommandResult result = run_etalon({"verify", "plain.obj", "--size", "32"}, {.folder = folder.path()});
+  CAPTURE(result.out);
+  CHECK(result.out.find("skipped: no texture coordinates (try ") != std::string::npos);
+  const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
+  CHECK(document["jobs"][1]["job"] == "indexed");
+  CHECK(document["jobs"][1].contains("skipped"));
+  CHECK(document["jobs"][0]["cases"][0]["sampling"] == "vertex colours");
+  const CommandResult only = run_etalon({"verify", "plain.obj", "--size", "32", "--jobs", "indexed"}, {.folder = folder.path()});
+  CHECK(only.exit_code == 1);
+}
+
+TEST_CASE("views: built-in names and a file") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  folder.file("near.json", R"({"schema":"etalon/view/1","eye":[0,0,4],"target":[0,0,0],"up":[0,1,0],"tan_half_fov_y":0.5,"near":0.5,"far":10})");
+  const CommandResult result = run_etalon({"verify", "square.obj", "--size", "32", "--jobs", "render", "--view", "near.json", "--view", "3/24"}, {.folder = folder.path()});
+  CAPTURE(result.err);
+  const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
+  REQUIRE(document["jobs"][0]["cases"].size() == 4);
+  CHECK(document["jobs"][0]["cases"][0]["view"] == "near.json");
+  CHECK(document["jobs"][0]["cases"][2]["view"] == "3/24");
+}
+
+TEST_CASE("--quiet prints nothing") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  const CommandResult result = run_etalon({"verify", "square.obj", "--size", "16", "--quiet"}, {.folder = folder.path()});
+  CHECK(result.out.empty());
+  CHECK(result.err.empty());
+}
