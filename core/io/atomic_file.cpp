@@ -75,7 +75,7 @@ AtomicFile::AtomicFile(const fs::path& path) : shown_(path), target_(links_follo
   }
   if (!target_.has_filename()) fail(EISDIR);
   // rename() would replace a file that its owner has write-protected.
-  if (exists && ::access(target_.c_str(), W_OK) != 0) fail(errno);
+  if (exists && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0) fail(errno);
   for (int attempt = 0; attempt < 100; ++attempt) {
     // A long name must not become too long by our additions: only its head is repeated.
     const std::string name = fmt::format(".{}.{}-{}.tmp", target_.filename().string().substr(0, 32), ::getpid(), g_temporary_count++);

@@ -11,6 +11,7 @@
 #include "core/io/input_error.h"
 #include "core/io/mesh_formats.h"
 #include "core/io/triangle_soup.h"
+#include "core/mesh/weld.h"
 
 namespace etalon::io {
 namespace {
@@ -89,8 +90,7 @@ class GltfReader {
     if (soup_.faces.empty())
       fail_file(document_.file(), "no faces: expected at least one mesh with triangles in the default scene, got none");
     fill_gaps();
-    weld(soup_);
-    model_.mesh = to_mesh(std::move(soup_));
+    model_.mesh = welded_by_position(to_mesh(std::move(soup_)));
     return std::move(model_);
   }
 

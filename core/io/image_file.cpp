@@ -135,7 +135,7 @@ Image decode_image(std::span<const std::byte> bytes, const std::string& name) {
   switch (format_of(bytes, name)) {
     case ImageFormat::png: check_png_structure(bytes, name); return decode_by_oiio(bytes, name, "png");
     case ImageFormat::jpeg: check_jpeg_structure(bytes, name); return decode_by_oiio(bytes, name, "jpeg");
-    case ImageFormat::tiff: return decode_by_oiio(bytes, name, "tiff");
+    case ImageFormat::tiff: check_tiff_structure(bytes, name); return decode_by_oiio(bytes, name, "tiff");
     case ImageFormat::exr: return color_image(decode_exr(bytes, name), name);
   }
   fail_file(name, "unknown image format");

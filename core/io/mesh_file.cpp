@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "core/base/error.h"
@@ -42,6 +43,13 @@ void check_mesh(const fs::path& path, const Mesh& mesh, const std::vector<Materi
   if (!materials.empty())
     for (const std::uint32_t m : mesh.face_materials)
       if (m >= materials.size()) refuse(fmt::format("face material: expected below {}, got {}", materials.size(), m));
+  for (const Vec3f& p : mesh.positions)
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) refuse("expected finite positions");
+  for (const Vec4f& c : mesh.colors)
+    for (int k = 0; k < 4; ++k)
+      if (!(c[k] >= 0 && c[k] <= 1)) refuse(fmt::format("colours: expected 0 to 1, got {}", c[k]));
+  for (const Wedge& w : mesh.wedges)
+    if (!std::isfinite(w.uv.x) || !std::isfinite(w.uv.y)) refuse("expected finite texture coordinates");
   for (const Wedge& w : mesh.wedges)
     if (w.vertex.index >= mesh.positions.size())
       refuse(fmt::format("wedge: vertex expected below {}, got {}", mesh.positions.size(), w.vertex.index));

@@ -27,13 +27,15 @@ struct LoadedModel {
 /// Reads the mesh at `path`; the extension must be .obj, .ply, .glb or .gltf (any case), the content decides where it says otherwise.
 ///
 /// Common to all: polygons become fans around their first corner; every triangle of the file is kept, degenerate ones too; vertices keep
-/// the file's order (glTF, and PLY with texture coordinates per vertex: welded by equal position and colour); wedges are the different
-/// (vertex, uv) pairs in order of first use; colours in [0, 1] as stored, integers divided by their maximum in float32;
-/// double coordinates are rounded to float32. Faces without texture coordinates in a model that has some get (0, 0), with a note.
+/// the file's order, also unused ones. Wedges are the different (vertex, uv) pairs: where the file has coordinates at corners, in order of
+/// first use by the faces; where it has them at vertices (glTF, some PLY), vertices are welded by equal position and colour
+/// (core/mesh/weld.h) and both keep the order of first appearance; without coordinates wedge i is vertex i. Colours are in [0, 1] as
+/// stored, integers divided by their maximum in float32; double coordinates are rounded to float32. Faces without texture coordinates in
+/// a model that has some get (0, 0), with a note.
 /// - OBJ: v is up and stays. `v x y z r g b [a]` are colours. A missing material library or texture is a note.
 /// - PLY: texture coordinates s t | u v | texture_u texture_v of vertices, or a `texcoord` list of faces with `texnumber` and
 ///   `comment TextureFile NAME`; v is up and stays. Element `tristrips` too.
-/// - glTF: v runs down there, so v = 1 − v_file, in float32 (exact for v_file in [0.5, 1], else rounded to a multiple of 2^-25).
+/// - glTF: v runs down there, so v = 1 − v_file in float32: exact for v_file in [0.5, 2] (Sterbenz' lemma), else rounded once.
 ///   Node transforms are applied in double and rounded once; a mirrored one turns its triangles around. All meshes of the default scene
 ///   are joined.
 ///
@@ -51,9 +53,11 @@ void flip_v(Mesh& mesh);
 /// `materials` may be empty; otherwise every entry of mesh.face_materials must be below its size. Textures: an embedded image is
 /// written as STEM.png (several: STEM_0.png, …) or into the GLB; otherwise texture_path is named relative to the model's folder, and for
 /// GLB its file is embedded.
-/// Lossless: read_mesh gives back positions, colours, faces, corner uvs and materials bit by bit (wedges renumbered by first use), except
-/// that glTF rounds v as above and that glTF vertices of equal position and colour come back welded.
-/// WriteError where a file cannot be written, its extension is none of these, or the format cannot hold the mesh.
+/// Lossless: read_mesh gives back positions, colours, faces, the uv of every corner, and the materials bit by bit (wedges are renumbered),
+/// except that glTF rounds v as above, welds vertices of equal position and colour and groups the faces by material, and that PLY keeps the
+/// textures of materials, not their names.
+/// WriteError where a file cannot be written, its extension is none of these, or the format cannot hold the mesh (no faces, numbers that
+/// are not finite, indices or list sizes that do not fit each other).
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials = {});
 
 }  // namespace etalon::io

@@ -12,6 +12,7 @@
 #include "core/io/ply_header.h"
 #include "core/io/text_scan.h"
 #include "core/io/triangle_soup.h"
+#include "core/mesh/weld.h"
 
 namespace etalon::io {
 namespace {
@@ -195,8 +196,9 @@ class BodyReader {
       fail_file(path_.string(), "no faces: expected an element 'face' or 'tristrips' with at least one row, got none");
     drop_unused_face_data();
     // One coordinate per vertex means that the writer had to split the vertices along seams.
-    if (!soup_.vertex_uvs.empty()) weld(soup_);
+    const bool split_at_seams = !soup_.vertex_uvs.empty();
     model_.mesh = to_mesh(std::move(soup_));
+    if (split_at_seams) model_.mesh = welded_by_position(model_.mesh);
     return std::move(model_);
   }
 

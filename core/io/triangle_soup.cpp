@@ -7,13 +7,12 @@
 namespace etalon::io {
 namespace {
 
-/// Finds equal keys of `kWords` 32-bit words: open addressing over indices of the caller's own list, so the result does not depend on the hash.
-template <std::size_t kWords>
-class KeyIndex {
+/// Numbers different wedges (vertex, u, v) in order of appearance: open addressing; the numbers do not depend on the hash.
+class WedgeIndex {
  public:
-  using Key = std::array<std::uint32_t, kWords>;
+  using Key = std::array<std::uint32_t, 3>;
 
-  explicit KeyIndex(std::size_t expected) { slots_.resize(std::bit_ceil(expected * 2 + 16), kEmpty); }
+  explicit WedgeIndex(std::size_t expected) { slots_.resize(std::bit_ceil(expected * 2 + 16), kEmpty); }
 
   /// The number of `key`: that of an equal earlier key, else the next free one, counting from 0.
   std::uint32_t number_of(const Key& key) {
@@ -27,7 +26,6 @@ class KeyIndex {
     keys_.push_back(key);
     return slots_[slot];
   }
-  [[nodiscard]] std::size_t size() const { return keys_.size(); }
 
  private:
   static constexpr std::uint32_t kEmpty = 0xFFFFFFFFu;
@@ -57,31 +55,6 @@ std::uint32_t key_bits(float value) { return value == 0 ? 0u : std::bit_cast<std
 
 }  // namespace
 
-void weld(TriangleSoup& soup) {
-  KeyIndex<7> index(soup.positions.size());
-  std::vector<std::uint32_t> new_of_old(soup.positions.size());
-  std::vector<Vec3f> positions;
-  std::vector<Vec4f> colors;
-  for (std::size_t v = 0; v < soup.positions.size(); ++v) {
-    const Vec3f& p = soup.positions[v];
-    const Vec4f c = soup.colors.empty() ? Vec4f(1) : soup.colors[v];
-    new_of_old[v] =
-        index.number_of({key_bits(p.x), key_bits(p.y), key_bits(p.z), key_bits(c.x), key_bits(c.y), key_bits(c.z), key_bits(c.w)});
-    if (new_of_old[v] < positions.size()) continue;
-    positions.push_back(p);
-    if (!soup.colors.empty()) colors.push_back(c);
-  }
-  if (!soup.vertex_uvs.empty()) {
-    soup.corner_uvs.reserve(soup.faces.size());
-    for (const auto& f : soup.faces) soup.corner_uvs.push_back({soup.vertex_uvs[f[0]], soup.vertex_uvs[f[1]], soup.vertex_uvs[f[2]]});
-    soup.vertex_uvs.clear();
-  }
-  for (auto& f : soup.faces)
-    for (auto& v : f) v = new_of_old[v];
-  soup.positions = std::move(positions);
-  soup.colors = std::move(colors);
-}
-
 Mesh to_mesh(TriangleSoup&& soup) {
   Mesh mesh;
   mesh.positions = std::move(soup.positions);
@@ -89,18 +62,19 @@ Mesh to_mesh(TriangleSoup&& soup) {
   mesh.face_materials = std::move(soup.face_materials);
   mesh.faces.reserve(soup.faces.size());
   mesh.has_uv = !soup.vertex_uvs.empty() || !soup.corner_uvs.empty();
-  if (!mesh.has_uv) {
+  if (soup.corner_uvs.empty()) {
     mesh.wedges.reserve(mesh.positions.size());
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) mesh.wedges.push_back({VertexId(v), {0, 0}});
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+      mesh.wedges.push_back({VertexId(v), mesh.has_uv ? soup.vertex_uvs[v] : Vec2f(0)});
     for (const auto& f : soup.faces) mesh.faces.push_back({WedgeId(f[0]), WedgeId(f[1]), WedgeId(f[2])});
     return mesh;
   }
-  KeyIndex<3> index(mesh.positions.size());
+  WedgeIndex index(mesh.positions.size());
   for (std::size_t f = 0; f < soup.faces.size(); ++f) {
     std::array<WedgeId, 3> face;
     for (int corner = 0; corner < 3; ++corner) {
       const std::uint32_t v = soup.faces[f][corner];
-      const Vec2f uv = soup.corner_uvs.empty() ? soup.vertex_uvs[v] : soup.corner_uvs[f][corner];
+      const Vec2f uv = soup.corner_uvs[f][corner];
       const std::uint32_t w = index.number_of({v, key_bits(uv.x), key_bits(uv.y)});
       if (w == mesh.wedges.size()) mesh.wedges.push_back({VertexId(v), uv});
       face[corner] = WedgeId(w);

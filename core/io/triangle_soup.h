@@ -18,12 +18,8 @@ struct TriangleSoup {
   std::vector<std::uint32_t> face_materials;        ///< #F or empty
 };
 
-/// Joins vertices of equal position and colour (−0 equals +0): formats that keep one texture coordinate per vertex split vertices along
-/// seams. The first of each group stays, in order; faces are renumbered, texture coordinates move to the corners.
-void weld(TriangleSoup& soup);
-
-/// The mesh: vertices in order, also those which no face uses; one wedge for each different (vertex, uv), numbered in the order of first
-/// use by the faces; without texture coordinates wedge i is vertex i.
+/// The mesh: vertices in order, also those which no face uses. Coordinates of corners: one wedge for each different (vertex, uv), numbered in
+/// the order of first use by the faces. Otherwise wedge i is vertex i, seen with its coordinate.
 [[nodiscard]] Mesh to_mesh(TriangleSoup&& soup);
 
 }  // namespace etalon::io
