@@ -11,7 +11,8 @@ using EdgeId = StrongId<struct EdgeTag>;
 /// Half-edge 3·face + corner runs from that corner to the next one of its face, the face on its left.
 using HalfEdgeId = StrongId<struct HalfEdgeTag>;
 
-/// An immutable picture of a mesh's connections; the mesh must outlive it and must not change. Its nodes are the vertices, or the wedges: then an edge
+/// An immutable picture of a mesh's connections; the mesh must outlive it and must not change. Its nodes are the vertices, or the wedges:
+/// then an edge
 /// is shared only where both faces use the same two wedges, that is, where texture coordinates continue.
 /// Every order is by lowest index first. All is O(faces) but the sort of the half-edges.
 class Adjacency {
@@ -49,7 +50,8 @@ class Adjacency {
     return {around_.data() + face_starts_[node], face_starts_[node + 1] - face_starts_[node]};
   }
 
-  /// Half-edges of the boundary, chained into loops; each loop starts at its lowest half-edge, loops ascend by it. At a node where several boundaries
+  /// Half-edges of the boundary, chained into loops; each loop starts at its lowest half-edge, loops ascend by it. At a node where
+  /// several boundaries
   /// meet a loop continues around the face it came from; where that fails (a non-manifold edge) at the lowest free half-edge.
   [[nodiscard]] std::vector<std::vector<HalfEdgeId>> boundary_loops() const;
 
@@ -63,12 +65,12 @@ class Adjacency {
  private:
   [[nodiscard]] HalfEdgeId next_on_boundary(HalfEdgeId h) const;
 
-  std::vector<std::uint32_t> nodes_;         // #H
-  std::vector<EdgeId> edge_of_;              // #H
-  std::vector<HalfEdgeId> on_edges_;         // grouped by edge
-  std::vector<std::uint32_t> edge_starts_;   // #E + 1
-  std::vector<FaceId> around_;               // grouped by node
-  std::vector<std::uint32_t> face_starts_;   // #N + 1
+  std::vector<std::uint32_t> nodes_;        // #H
+  std::vector<EdgeId> edge_of_;             // #H
+  std::vector<HalfEdgeId> on_edges_;        // grouped by edge
+  std::vector<std::uint32_t> edge_starts_;  // #E + 1
+  std::vector<FaceId> around_;              // grouped by node
+  std::vector<std::uint32_t> face_starts_;  // #N + 1
 };
 
 }  // namespace etalon

@@ -16,7 +16,9 @@ namespace {
 std::vector<WedgeId> merged_wedges(const Mesh& mesh) {
   std::vector<WedgeId> order(mesh.wedge_count());
   for (std::uint32_t w = 0; w < order.size(); ++w) order[w] = WedgeId(w);
-  const auto place = [&](WedgeId w) { return std::make_tuple(mesh.wedges[w.index].vertex, mesh.wedges[w.index].uv.x, mesh.wedges[w.index].uv.y); };
+  const auto place = [&](WedgeId w) {
+    return std::make_tuple(mesh.wedges[w.index].vertex, mesh.wedges[w.index].uv.x, mesh.wedges[w.index].uv.y);
+  };
   std::sort(order.begin(), order.end(), [&](WedgeId a, WedgeId b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
   std::vector<WedgeId> result(order.size());
   for (std::size_t i = 0; i < order.size(); ++i)

@@ -6,8 +6,8 @@
 namespace etalon {
 
 struct Chart {
-  std::vector<FaceId> faces;       ///< ascending
-  int sign = 1;                    ///< orientation of most of its area in texture space: 1, or −1 for a mirrored chart, which is legal; 1 without area
+  std::vector<FaceId> faces;  ///< ascending
+  int sign = 1;  ///< orientation of most of its area in texture space: 1, or −1 for a mirrored chart, which is legal; 1 without area
   double area_uv = 0;              ///< Σ |area| of its faces in texture space, where the whole texture is 1
   std::vector<FaceId> folds;       ///< faces whose exact orientation is against `sign`, ascending
   std::vector<FaceId> degenerate;  ///< faces of exactly zero area in texture space, ascending
@@ -25,8 +25,10 @@ struct Charts {
   std::size_t split_vertex_count = 0;  ///< vertices that faces use with two or more different texture coordinates
 };
 
-/// Charts of a mesh with uv. Faces are connected where they share an edge with equal texture coordinates at both ends, whether or not they share wedge
-/// ids. Orientation is of (u, v) as stored, v up; flipping v changes every sign. Signs of faces are exact; the sign of a chart is that of its faces'
+/// Charts of a mesh with uv. Faces are connected where they share an edge with equal texture coordinates at both ends, whether or not
+/// they share wedge
+/// ids. Orientation is of (u, v) as stored, v up; flipping v changes every sign. Signs of faces are exact; the sign of a chart is that of
+/// its faces'
 /// areas summed in face order in double. Indices out of range or uv not
 /// finite fail a check (InternalError): validate_mesh() looks first.
 [[nodiscard]] Charts find_charts(const Mesh& mesh);

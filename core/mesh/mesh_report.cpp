@@ -23,8 +23,8 @@ std::vector<std::string> MeshReport::to_lines() const {
   kind += manifold() ? ", manifold" : ", not manifold";
   kind += oriented() ? ", consistently oriented" : ", inconsistently oriented";
   if (genus) kind += fmt::format(", genus {}", *genus);
-  lines.push_back(fmt::format("{}; {} component{}, {} edges, Euler characteristic {}", kind, component_count, component_count == 1 ? "" : "s",
-                              edge_count, euler_characteristic));
+  lines.push_back(fmt::format("{}; {} component{}, {} edges, Euler characteristic {}", kind, component_count,
+                              component_count == 1 ? "" : "s", edge_count, euler_characteristic));
   say(boundary_edges, "boundary edges", "faces");
   say(non_manifold_edges, "edges of more than two faces", "faces");
   say(non_manifold_vertices, "vertices whose faces are not one fan", "vertices");
@@ -38,9 +38,10 @@ std::vector<std::string> MeshReport::to_lines() const {
     return lines;
   }
   if (non_finite_wedges.found()) return lines;
-  lines.push_back(fmt::format("{} UV chart{} (largest {} faces), {} seam vertices, u {:.6g} to {:.6g}, v {:.6g} to {:.6g}, {:.1f} % of the texture covered",
-                              chart_count, chart_count == 1 ? "" : "s", largest_chart_faces, seam_vertex_count, uv_min.x, uv_max.x, uv_min.y, uv_max.y,
-                              100 * uv_coverage));
+  lines.push_back(fmt::format(
+      "{} UV chart{} (largest {} faces), {} seam vertices, u {:.6g} to {:.6g}, v {:.6g} to {:.6g}, {:.1f} % of the texture covered",
+      chart_count, chart_count == 1 ? "" : "s", largest_chart_faces, seam_vertex_count, uv_min.x, uv_max.x, uv_min.y, uv_max.y,
+      100 * uv_coverage));
   if (negative_uv_faces > 0)
     lines.push_back(fmt::format("faces of negative UV area: {}, of which {} in mirrored charts", negative_uv_faces, mirrored_chart_faces));
   say(mirrored_charts, "mirrored charts (legal)", "charts");
@@ -50,7 +51,8 @@ std::vector<std::string> MeshReport::to_lines() const {
   say(uv_outside, "texture coordinates outside [0, 1]", "wedges");
   if (uv_overlaps.found()) {
     say(uv_overlaps, "faces that overlap another in texture space", "faces");
-    lines.push_back(fmt::format("overlap: {:.4f} % of the covered cells of a {}x{} grid", 100 * uv_overlap_share, overlap_grid, overlap_grid));
+    lines.push_back(
+        fmt::format("overlap: {:.4f} % of the covered cells of a {}x{} grid", 100 * uv_overlap_share, overlap_grid, overlap_grid));
   }
   return lines;
 }

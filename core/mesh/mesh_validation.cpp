@@ -113,10 +113,12 @@ class Examiner {
   void faces() {
     std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> sorted;
     for (std::uint32_t f = 0; f < mesh_.face_count(); ++f) {
-      std::array<std::uint32_t, 3> corners{mesh_.vertex(FaceId(f), 0).index, mesh_.vertex(FaceId(f), 1).index, mesh_.vertex(FaceId(f), 2).index};
+      std::array<std::uint32_t, 3> corners{mesh_.vertex(FaceId(f), 0).index, mesh_.vertex(FaceId(f), 1).index,
+                                           mesh_.vertex(FaceId(f), 2).index};
       std::sort(corners.begin(), corners.end());
       sorted.push_back({corners, f});
-      if (is_collinear(mesh_.position(FaceId(f), 0), mesh_.position(FaceId(f), 1), mesh_.position(FaceId(f), 2))) note(report_.degenerate_faces, f);
+      if (is_collinear(mesh_.position(FaceId(f), 0), mesh_.position(FaceId(f), 1), mesh_.position(FaceId(f), 2)))
+        note(report_.degenerate_faces, f);
     }
     std::sort(sorted.begin(), sorted.end());
     std::vector<std::uint32_t> repeated;
@@ -154,8 +156,10 @@ class Examiner {
       if (chart.area_texels(options_.texture_width, options_.texture_height) < 1) note(report_.tiny_charts, c);
       for (const FaceId f : chart.folds) folds.push_back(f.index);
       for (const FaceId f : chart.degenerate) flat.push_back(f.index);
-      report_.uv_min = c == 0 ? chart.uv_min : Vec2f(std::min(report_.uv_min.x, chart.uv_min.x), std::min(report_.uv_min.y, chart.uv_min.y));
-      report_.uv_max = c == 0 ? chart.uv_max : Vec2f(std::max(report_.uv_max.x, chart.uv_max.x), std::max(report_.uv_max.y, chart.uv_max.y));
+      report_.uv_min =
+          c == 0 ? chart.uv_min : Vec2f(std::min(report_.uv_min.x, chart.uv_min.x), std::min(report_.uv_min.y, chart.uv_min.y));
+      report_.uv_max =
+          c == 0 ? chart.uv_max : Vec2f(std::max(report_.uv_max.x, chart.uv_max.x), std::max(report_.uv_max.y, chart.uv_max.y));
     }
     std::sort(folds.begin(), folds.end());
     std::sort(flat.begin(), flat.end());

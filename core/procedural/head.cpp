@@ -32,17 +32,18 @@ Model make_head(const HeadOptions& options) {
     for (std::size_t v = begin; v < end; ++v) lights[v] = head_light_at(tube.positions[v]);
   });
   const Mesh& mesh = model.mesh;
-  model.texture = bake_atlas(mesh, options.texture_size, 6 * options.texture_size / 1024 + 2, Vec3d(0.13, 0.16, 0.19), [&](const TexelOnFace& texel) {
-    Vec3d p(0, 0, 0);
-    HeadLight light{0, 0};
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t v = mesh.vertex(texel.face, k).index;
-      p += tube.positions[v] * texel.weight[k];
-      light.sky += lights[v].sky * texel.weight[k];
-      light.key += lights[v].key * texel.weight[k];
-    }
-    return head_color(p, light);
-  });
+  model.texture =
+      bake_atlas(mesh, options.texture_size, 6 * options.texture_size / 1024 + 2, Vec3d(0.13, 0.16, 0.19), [&](const TexelOnFace& texel) {
+        Vec3d p(0, 0, 0);
+        HeadLight light{0, 0};
+        for (int k = 0; k < 3; ++k) {
+          const std::uint32_t v = mesh.vertex(texel.face, k).index;
+          p += tube.positions[v] * texel.weight[k];
+          light.sky += lights[v].sky * texel.weight[k];
+          light.key += lights[v].key * texel.weight[k];
+        }
+        return head_color(p, light);
+      });
   return model;
 }
 

@@ -21,7 +21,8 @@ struct Disc {
 constexpr Disc kDiscs[] = {{98, 110, 90}, {298, 110, 90}, {620, 110, 104}, {900, 110, 104}};
 enum Chart : std::uint32_t { kBill, kBase, kLeftEye, kRightEye, kSkin };  // the head's own left is +x
 
-/// p seen from 0.8 radii behind the centre of the +x (side = 1) or −x (side = −1) eye, on a plane across its axis, 1 = the rim of the eye's disc.
+/// p seen from 0.8 radii behind the centre of the +x (side = 1) or −x (side = −1) eye, on a plane across its axis, 1 = the rim of the
+/// eye's disc.
 /// z > 0 where p belongs to the eye's surroundings.
 Vec3d seen_from_eye(const Vec3d& p, double side) {
   const HeadEye& eye = head_eye();
@@ -90,8 +91,10 @@ class Unwrapping {
       for (std::size_t k = 0; k < 3; ++k) {
         TubeMesh::Corner c = tube_.faces[f][k];
         const std::uint32_t vertex = tube_.vertex(c), count = 2 * tube_.half_counts[c.ring];
-        if (count == 0) c.place = 0;
-        else if (charts_[f] != kSkin) c.place %= count;  // only the skin is cut open
+        if (count == 0)
+          c.place = 0;
+        else if (charts_[f] != kSkin)
+          c.place %= count;  // only the skin is cut open
         const auto [at, is_new] = wedges.try_emplace({vertex, charts_[f], c.place}, WedgeId(mesh.wedges.size()));
         if (is_new) mesh.wedges.push_back({VertexId(vertex), Vec2f(uv(c, charts_[f]) * kUnit)});
         face[k] = at->second;

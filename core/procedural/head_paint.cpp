@@ -16,21 +16,22 @@ Vec3d rgb(int r, int g, int b) { return {r / 255.0, g / 255.0, b / 255.0}; }
 
 struct Skin {
   Vec3d color;
-  Vec3d slope;    ///< gradient of the relief, for shading
+  Vec3d slope;  ///< gradient of the relief, for shading
   double gloss;
 };
 
 /// Scales of about `size`: domes that meet in dark grooves.
 struct Scales {
-  double dome;   ///< 0 in the groove, 1 on the flat top
-  double tint;   ///< −½..½, one value per scale
-  Vec3d slope;   ///< gradient of the dome
+  double dome;  ///< 0 in the groove, 1 on the flat top
+  double tint;  ///< −½..½, one value per scale
+  Vec3d slope;  ///< gradient of the dome
 };
 Scales scales_at(const Vec3d& p, double size, std::uint64_t seed) {
   constexpr double kGroove = 0.35;
   const Cells cells = cellular_noise(p * (1 / size), seed);
   const double t = clamp01((cells.second - cells.nearest) / kGroove);
-  return {t * t * (3 - 2 * t), static_cast<double>(cells.identity >> 44) * 0x1p-20 - 0.5, cells.gradient * (6 * t * (1 - t) / (kGroove * size))};
+  return {t * t * (3 - 2 * t), static_cast<double>(cells.identity >> 44) * 0x1p-20 - 0.5,
+          cells.gradient * (6 * t * (1 - t) / (kGroove * size))};
 }
 
 Skin skin_at(const Vec3d& p) {
@@ -56,7 +57,8 @@ Skin skin_at(const Vec3d& p) {
   if (on_crest > 0) {
     Vec3d sail = mix(rgb(214, 62, 66), rgb(252, 176, 64), smooth_step(0.15, 0.95, crest.rise));
     const double ray = cos_turns(crest.phase);
-    sail = mix(sail, rgb(120, 22, 58), 0.8 * smooth_step(0.25, 0.85, -ray + 0.25 * fractal_noise(p * 5.0, 2, 91)) * (1 - 0.55 * crest.rise));
+    sail =
+        mix(sail, rgb(120, 22, 58), 0.8 * smooth_step(0.25, 0.85, -ray + 0.25 * fractal_noise(p * 5.0, 2, 91)) * (1 - 0.55 * crest.rise));
     sail = mix(sail, rgb(255, 236, 170), smooth_step(0.82, 0.97, crest.rise) * 0.8);
     color = mix(color, sail, on_crest);
   }
@@ -111,12 +113,11 @@ Vec3d eye_color(const Vec3d& p, double& emission) {
   color = mix(color, rgb(46, 18, 10), 0.85 * bump(radius - kIris, 0.09));
   color = mix(rgb(10, 6, 10), color, smooth_step(kPupil - 0.02, kPupil + 0.03, radius));
   const double sx = side > 0 ? x : -x;  // both highlights come from the same lamp
-  const double large = smooth_step(0.17, 0.12, length(Vec3d(sx - (side > 0 ? -0.16 : 0.30) , y - 0.28, 0)));
+  const double large = smooth_step(0.17, 0.12, length(Vec3d(sx - (side > 0 ? -0.16 : 0.30), y - 0.28, 0)));
   const double small = smooth_step(0.08, 0.045, length(Vec3d(sx - (side > 0 ? 0.22 : -0.12), y + 0.26, 0)));
   emission = std::fmax(large, 0.65 * small);
   return color;
 }
-
 
 }  // namespace
 
@@ -129,7 +130,8 @@ Vec3d head_color(const Vec3d& near_surface, const HeadLight& light) {
   const HeadEye& eye = head_eye();
   const auto distance_to_eye = [&](const Vec3d& q) { return length(Vec3d(std::fabs(q.x), q.y, q.z) - eye.center); };
   // Between vertices a point lies off the surface by its curvature; that shows only at the rims of eye, mouth and nostrils.
-  const bool delicate = distance_to_eye(near_surface) < 1.6 * eye.radius || (near_surface.z > 0.2 && near_surface.y > -0.4 && near_surface.y < 0.3);
+  const bool delicate =
+      distance_to_eye(near_surface) < 1.6 * eye.radius || (near_surface.z > 0.2 && near_surface.y > -0.4 && near_surface.y < 0.3);
   const Vec3d p = delicate ? projected(head_field, near_surface, 2) : near_surface;
   const double from_eye = distance_to_eye(p);
   const double in_eye = smooth_step(eye.radius + 0.011, eye.radius + 0.004, from_eye);
@@ -156,7 +158,8 @@ Vec3d head_color(const Vec3d& near_surface, const HeadLight& light) {
   const double rim = std::fmax(0, dot(normal, kRimLight));
   const double up = 0.5 + 0.5 * normal.y;
   const Vec3d sky = mix(rgb(168, 136, 120), rgb(180, 206, 236), up) * (light.sky * 0.66);
-  const Vec3d total = sky + Vec3d(1.0, 0.93, 0.82) * (0.62 * key + 0.12 * wrap * light.sky) + Vec3d(0.45, 0.55, 0.85) * (0.30 * rim * light.sky);
+  const Vec3d total =
+      sky + Vec3d(1.0, 0.93, 0.82) * (0.62 * key + 0.12 * wrap * light.sky) + Vec3d(0.45, 0.55, 0.85) * (0.30 * rim * light.sky);
   Vec3d lit = color * total;
   // A soft sheen toward the mean viewer in front of the head: a baked texture has no viewer of its own.
   const Vec3d half = normalized(kKeyLight + normalized(Vec3d(0.35, 0.1, 1)));

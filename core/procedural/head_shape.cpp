@@ -55,13 +55,13 @@ double head_field(const Vec3d& p) {
   const Vec3d q(std::fabs(p.x), p.y, p.z);
   const Vec3d squeezed(q.x * 0.86, q.y, q.z);
 
-  double d = ellipsoid(q, {0, 0.26, -0.04}, {0.52, 0.50, 0.60});                                            // skull
-  d = smooth_min(d, round_cone(squeezed, {0, 0.20, 0.25}, {0, 0.04, 0.98}, 0.36, 0.22), 0.22);            // muzzle
-  d = smooth_min(d, ellipsoid(q, {0, -0.02, 1.20}, {0.39, 0.19, 0.36}), 0.16);                              // bill
-  d = smooth_min(d, round_cone(squeezed, {0, -0.14, 0.10}, {0, -0.26, 0.95}, 0.32, 0.15), 0.10);          // jaw
-  d = smooth_min(d, ellipsoid(q, {0, -0.28, 1.08}, {0.33, 0.12, 0.34}), 0.08);                              // lower bill
-  d = smooth_min(d, round_cone(q, {0.28, -0.06, 0.24}, {0.24, 0.0, 0.52}, 0.24, 0.17), 0.16);              // cheek
-  d = smooth_min(d, round_cone(q, {0, 0.05, -0.22}, {0, -1.7, -0.62}, 0.44, 0.70), 0.26);                  // neck
+  double d = ellipsoid(q, {0, 0.26, -0.04}, {0.52, 0.50, 0.60});                                  // skull
+  d = smooth_min(d, round_cone(squeezed, {0, 0.20, 0.25}, {0, 0.04, 0.98}, 0.36, 0.22), 0.22);    // muzzle
+  d = smooth_min(d, ellipsoid(q, {0, -0.02, 1.20}, {0.39, 0.19, 0.36}), 0.16);                    // bill
+  d = smooth_min(d, round_cone(squeezed, {0, -0.14, 0.10}, {0, -0.26, 0.95}, 0.32, 0.15), 0.10);  // jaw
+  d = smooth_min(d, ellipsoid(q, {0, -0.28, 1.08}, {0.33, 0.12, 0.34}), 0.08);                    // lower bill
+  d = smooth_min(d, round_cone(q, {0.28, -0.06, 0.24}, {0.24, 0.0, 0.52}, 0.24, 0.17), 0.16);     // cheek
+  d = smooth_min(d, round_cone(q, {0, 0.05, -0.22}, {0, -1.7, -0.62}, 0.44, 0.70), 0.26);         // neck
   // Parts that a bound shows to lie farther than the blend reaches change nothing: smooth_min(a, b, k) = a where b >= a + k.
   if (q.x - kCrestThickness < d + 0.14) d = smooth_min(d, crest_field(q), 0.14);
 
@@ -104,9 +104,9 @@ SpinePose head_spine(double t) {
     double t, y, z, tilt, cone;  // tilt: dorsal direction from up toward the back, in turns; cone: of the rays toward forward, in turns
   };
   static constexpr Key kKeys[] = {
-      {0.00, -0.10, 1.12, 0.000, 0.25},  {0.20, -0.10, 1.12, 0.000, 0.000}, {0.42, 0.05, 0.60, 0.024, 0.0},
-      {0.56, 0.12, 0.12, 0.085, 0.0},    {0.68, 0.00, -0.15, 0.120, 0.0},   {0.80, -0.45, -0.30, 0.180, 0.0},
-      {0.90, -0.95, -0.42, 0.25, 0.0},   {1.00, -0.95, -0.42, 0.25, -0.25},
+      {0.00, -0.10, 1.12, 0.000, 0.25}, {0.20, -0.10, 1.12, 0.000, 0.000}, {0.42, 0.05, 0.60, 0.024, 0.0},
+      {0.56, 0.12, 0.12, 0.085, 0.0},   {0.68, 0.00, -0.15, 0.120, 0.0},   {0.80, -0.45, -0.30, 0.180, 0.0},
+      {0.90, -0.95, -0.42, 0.25, 0.0},  {1.00, -0.95, -0.42, 0.25, -0.25},
   };
   std::size_t i = 0;
   while (i + 2 < std::size(kKeys) && t > kKeys[i + 1].t) ++i;

@@ -6,9 +6,9 @@
 namespace etalon::procedural {
 
 struct HeadEye {
-  Vec3d center;       ///< of the +x eyeball
+  Vec3d center;  ///< of the +x eyeball
   double radius;
-  Vec3d axis;         ///< unit, where it looks
+  Vec3d axis;  ///< unit, where it looks
 };
 [[nodiscard]] const HeadEye& head_eye();
 

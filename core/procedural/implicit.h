@@ -40,10 +40,12 @@ using Field = double (*)(const Vec3d&);
 /// The outermost zero on the ray origin + s·direction, s in [0, reach]: marches inward from s = reach; 0 where the ray meets nothing.
 [[nodiscard]] double outermost_hit(Field field, const Vec3d& origin, const Vec3d& direction, double reach);
 
-/// Share of the hemisphere above a surface point that is open sky, in [0, 1], each ray weighted by its cosine and by how near it passes to the surface.
+/// Share of the hemisphere above a surface point that is open sky, in [0, 1], each ray weighted by its cosine and by how near it passes
+/// to the surface.
 [[nodiscard]] double sky_visibility(Field field, const Vec3d& p, const Vec3d& normal, int ray_count, double reach);
 
 /// Softened visibility of a distant light, in [0, 1]; `softness` is the light's half-angle as a tangent.
-[[nodiscard]] double light_visibility(Field field, const Vec3d& p, const Vec3d& normal, const Vec3d& to_light, double softness, double reach);
+[[nodiscard]] double light_visibility(Field field, const Vec3d& p, const Vec3d& normal, const Vec3d& to_light, double softness,
+                                      double reach);
 
 }  // namespace etalon::procedural

@@ -33,7 +33,8 @@ TEST_CASE("orientation equals integer arithmetic, near lines above all") {
     std::int64_t p[6];
     for (auto& x : p) x = rng.between(-(1 << 24), 1 << 24);
     if (i % 2 == 0) {  // a point nearly or exactly on the line through the other two
-      const std::int64_t dx = rng.between(-2000, 2000), dy = rng.between(-2000, 2000), m = rng.between(-2000, 2000), n = rng.between(-2000, 2000);
+      const std::int64_t dx = rng.between(-2000, 2000), dy = rng.between(-2000, 2000), m = rng.between(-2000, 2000),
+                         n = rng.between(-2000, 2000);
       p[0] = rng.between(-1000, 1000), p[1] = rng.between(-1000, 1000);
       p[2] = p[0] + m * dx, p[3] = p[1] + m * dy, p[4] = p[0] + n * dx + rng.between(-1, 1), p[5] = p[1] + n * dy;
     }
@@ -60,7 +61,9 @@ TEST_CASE("orientation: swapping two corners turns the sign, turning the corners
   Rng rng(11);
   for (int i = 0; i < 5000; ++i) {
     Vec2f p[3];
-    for (auto& q : p) q = {std::ldexp(rng.uniform(-1, 1), static_cast<int>(rng.between(-60, 60))), std::ldexp(rng.uniform(-1, 1), static_cast<int>(rng.between(-60, 60)))};
+    for (auto& q : p)
+      q = {std::ldexp(rng.uniform(-1, 1), static_cast<int>(rng.between(-60, 60))),
+           std::ldexp(rng.uniform(-1, 1), static_cast<int>(rng.between(-60, 60)))};
     const int s = orientation(p[0], p[1], p[2]);
     REQUIRE(orientation(p[1], p[2], p[0]) == s);
     REQUIRE(orientation(p[1], p[0], p[2]) == -s);

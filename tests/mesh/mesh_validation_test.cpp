@@ -34,10 +34,10 @@ TEST_CASE("a sound square has nothing to report but its boundary") {
   CHECK_FALSE(report.genus.has_value());
   CHECK(report.chart_count == 1);
   CHECK(report.uv_coverage == 1);
-  for (const Defect* d : {&report.wedges_out_of_range, &report.non_finite_vertices, &report.non_finite_wedges, &report.unreferenced_vertices,
-                          &report.non_manifold_edges, &report.non_manifold_vertices, &report.inconsistent_edges, &report.duplicate_faces,
-                          &report.degenerate_faces, &report.degenerate_uv_faces, &report.folds, &report.mirrored_charts, &report.tiny_charts,
-                          &report.uv_outside, &report.uv_overlaps})
+  for (const Defect* d : {&report.wedges_out_of_range, &report.non_finite_vertices, &report.non_finite_wedges,
+                          &report.unreferenced_vertices, &report.non_manifold_edges, &report.non_manifold_vertices,
+                          &report.inconsistent_edges, &report.duplicate_faces, &report.degenerate_faces, &report.degenerate_uv_faces,
+                          &report.folds, &report.mirrored_charts, &report.tiny_charts, &report.uv_outside, &report.uv_overlaps})
     CHECK_FALSE(d->found());
   CHECK(says(report, "open, 1 boundary loops, manifold"));
 }

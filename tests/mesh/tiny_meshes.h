@@ -29,9 +29,7 @@ inline void set_corner_uv(Mesh& mesh, std::uint32_t f, std::size_t k, Vec2f uv) 
 inline Mesh square() { return mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}); }
 
 /// A closed tetrahedron, faces counter-clockwise from outside.
-inline Mesh tetrahedron() {
-  return mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
-}
+inline Mesh tetrahedron() { return mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}); }
 
 /// A torus of 3 × 3 squares.
 inline Mesh torus() {

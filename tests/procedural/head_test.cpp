@@ -66,7 +66,7 @@ TEST_CASE("the head is wound outward, upright, and looks toward +Z") {
   const Mesh& mesh = default_head().mesh;
   CHECK(volume(mesh) > 1);
   const BoundingBox box = bounding_box(mesh);
-  CHECK(box.hi.z > -box.lo.z);          // the bill reaches farther than the crest
+  CHECK(box.hi.z > -box.lo.z);  // the bill reaches farther than the crest
   CHECK(box.hi.y - box.lo.y > box.hi.x - box.lo.x);
 }
 

@@ -26,7 +26,7 @@ TEST_CASE("primitives of distance") {
 
 TEST_CASE("normal, projection and hit on a ball") {
   const Vec3d p = normalized(Vec3d(1, 2, -3));
-  CHECK(dot(field_normal(unit_ball, p, 1e-4), p) > 1 - 1e-7);  // differences at distance h err by O(h²)
+  CHECK(dot(field_normal(unit_ball, p, 1e-4), p) > 1 - 1e-7);             // differences at distance h err by O(h²)
   CHECK(std::fabs(length(projected(unit_ball, p * 1.2, 8)) - 1) < 1e-8);  // each step leaves a tenth: 0.2·10^-8
   const double hit = outermost_hit(unit_ball, {0, 0, 0.5}, {0, 0, 1}, 4);
   CHECK(std::fabs(hit - 0.5) < 1e-8);  // steps of 0.6·distance stop short; the step of 1e-3 that enters is halved 26 times

@@ -24,7 +24,8 @@ TEST_CASE("value noise is bounded, continuous over cell borders and takes its la
   CHECK(most > 0.8);
   for (int i = -3; i < 4; ++i) {
     const double x = i;
-    // 2^-20 before a lattice plane the fade 1 − 10t³ + … lacks 10·2^-60, times a difference of at most 2; the rest is rounding of numbers up to 1.
+    // 2^-20 before a lattice plane the fade 1 − 10t³ + … lacks 10·2^-60, times a difference of at most 2; the rest is rounding of numbers
+    // up to 1.
     CHECK(std::fabs(value_noise({x, 0.3, 0.7}, 2) - value_noise({x - 0x1p-20, 0.3, 0.7}, 2)) < 0x1p-50);
   }
   CHECK(value_noise({1, 2, 3}, 4) == 2 * (static_cast<double>(lattice_hash(1, 2, 3, 4) >> 11) * 0x1p-53) - 1);
@@ -43,8 +44,10 @@ TEST_CASE("cellular noise finds the two nearest of the jittered points") {
       const Vec3d d(x + static_cast<double>(h & 0xFFFFF) * 0x1p-20 - p.x, y + static_cast<double>((h >> 20) & 0xFFFFF) * 0x1p-20 - p.y,
                     z + static_cast<double>((h >> 40) & 0xFFFFF) * 0x1p-20 - p.z);
       const double distance = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
-      if (distance < best) next = best, best = distance;
-      else if (distance < next) next = distance;
+      if (distance < best)
+        next = best, best = distance;
+      else if (distance < next)
+        next = distance;
     }
     REQUIRE(cells.nearest == best);
     REQUIRE(cells.second == next);

@@ -16,7 +16,8 @@ TEST_CASE("sine and cosine of turns stay within their stated error") {
     // The bound of the header, and glibc's own half ulp in long double is far below it.
     const double bound = 4e-16 + 2 * kPi * 0x1p-53 * std::fabs(turns);
     REQUIRE(std::fabs(sin_turns(turns) - static_cast<double>(std::sin(2 * 3.14159265358979323846264338328L * turns))) <= bound);
-    REQUIRE(std::fabs(cos_turns(turns) - static_cast<double>(std::cos(2 * 3.14159265358979323846264338328L * turns))) <= bound + 2 * kPi * 0x1p-53);
+    REQUIRE(std::fabs(cos_turns(turns) - static_cast<double>(std::cos(2 * 3.14159265358979323846264338328L * turns))) <=
+            bound + 2 * kPi * 0x1p-53);
   }
   CHECK(sin_turns(0) == 0);
   CHECK(sin_turns(0.5) == 0);
