@@ -12,9 +12,8 @@ using EdgeId = StrongId<struct EdgeTag>;
 using HalfEdgeId = StrongId<struct HalfEdgeTag>;
 
 /// An immutable picture of a mesh's connections; the mesh must outlive it and must not change. Its nodes are the vertices, or the wedges:
-/// then an edge
-/// is shared only where both faces use the same two wedges, that is, where texture coordinates continue.
-/// Every order is by lowest index first. All is O(faces) but the sort of the half-edges.
+/// then an edge is shared only where both faces use the same two wedges, that is, where texture coordinates continue. Every order is by
+/// lowest index first. All is O(faces) but the sort of the half-edges.
 class Adjacency {
  public:
   enum class Nodes { vertices, wedges };
@@ -50,9 +49,8 @@ class Adjacency {
     return {around_.data() + face_starts_[node], face_starts_[node + 1] - face_starts_[node]};
   }
 
-  /// Half-edges of the boundary, chained into loops; each loop starts at its lowest half-edge, loops ascend by it. At a node where
-  /// several boundaries
-  /// meet a loop continues around the face it came from; where that fails (a non-manifold edge) at the lowest free half-edge.
+  /// Half-edges of the boundary, chained into loops; each loop starts at its lowest half-edge, loops ascend by it. At a node where several
+  /// boundaries meet a loop continues around the face it came from; where that fails (a non-manifold edge) at the lowest free half-edge.
   [[nodiscard]] std::vector<std::vector<HalfEdgeId>> boundary_loops() const;
 
   struct Components {

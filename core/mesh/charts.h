@@ -25,12 +25,10 @@ struct Charts {
   std::size_t split_vertex_count = 0;  ///< vertices that faces use with two or more different texture coordinates
 };
 
-/// Charts of a mesh with uv. Faces are connected where they share an edge with equal texture coordinates at both ends, whether or not
-/// they share wedge
-/// ids. Orientation is of (u, v) as stored, v up; flipping v changes every sign. Signs of faces are exact; the sign of a chart is that of
-/// its faces'
-/// areas summed in face order in double. Indices out of range or uv not
-/// finite fail a check (InternalError): validate_mesh() looks first.
+/// Charts of a mesh with uv. Faces are connected where they share an edge with equal texture coordinates at both ends, whether or not they
+/// share wedge ids. Orientation is of (u, v) as stored, v up; flipping v changes every sign. Signs of faces are exact; the sign of a chart
+/// is that of its faces' areas summed in face order in double. Indices out of range or uv not finite fail a check (InternalError):
+/// validate_mesh() looks first.
 [[nodiscard]] Charts find_charts(const Mesh& mesh);
 
 }  // namespace etalon

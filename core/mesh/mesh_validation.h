@@ -24,8 +24,7 @@ struct MeshValidationOptions {
 };
 
 /// Numbers of a mesh. Everything after `indices_in_range` is 0 or empty where that is false; everything about uv where the mesh has none
-/// or it is
-/// not finite.
+/// or it is not finite.
 struct MeshReport {
   std::size_t vertex_count = 0, wedge_count = 0, face_count = 0;
   bool indices_in_range = true;

@@ -15,9 +15,8 @@ struct TexelOnFace {
 };
 
 /// Calls `paint` once for every texel whose centre lies in a face's UV triangle (in several: the lowest face), from several threads, and
-/// stores its
-/// colour; texels of no face take the mean of their already coloured 8-neighbours, ring by ring, up to `gutter_texel` rings, and
-/// `background` beyond.
+/// stores its colour; texels of no face take the mean of their already coloured 8-neighbours, ring by ring, up to `gutter_texel` rings,
+/// and `background` beyond.
 [[nodiscard]] Image bake_atlas(const Mesh& mesh, int size, int gutter_texel, const Vec3d& background,
                                const std::function<Vec3d(const TexelOnFace&)>& paint);
 

@@ -1,6 +1,5 @@
 // A closed genus-0 mesh wrapped around an implicit surface that is symmetric in x: rings of vertices around a spine, from a front pole to
-// a back
-// pole, each ring with as many vertices as its length asks for, so that triangles come out nearly equilateral.
+// a back pole, each ring with as many vertices as its length asks for, so that triangles come out nearly equilateral.
 #pragma once
 
 #include <array>
