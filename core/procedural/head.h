@@ -11,8 +11,8 @@ struct HeadOptions {
 };
 
 /// A young crested dinosaur: closed, manifold, genus 0, mirror-symmetric, looking toward +Z, +Y up. Charts, apart by gutters, none folded,
-/// mirrored or overlapping: the skin, cut open along the ventral midline; the tip of the bill; the base of the neck; and, from about 2,000
-/// faces on, each eye. The texture is lit (sky visibility, key and rim light baked in), so that drawing it unlit looks solid. InputError
+/// mirrored or overlapping: the skin, cut open along the ventral midline; the tip of the bill; the base of the neck; and, where the
+/// mesh is fine enough, each eye. The texture is lit (sky visibility, key and rim light baked in), so that drawing it unlit looks solid. InputError
 /// where an option is out of range.
 [[nodiscard]] Model make_head(const HeadOptions& options = {});
 
