@@ -159,10 +159,15 @@ std::string attributions(const VerifyResult& result) {
   return html;
 }
 
-// A script element ends at the first "</": JSON may write it "<\/".
-std::string json_for_script(std::string text) {
-  for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3)) text.replace(at, 2, "<\\/");
-  return text;
+// Inside a script element no "<" of a name may look like a tag or a comment; JSON can write it otherwise.
+std::string json_for_script(const std::string& text) {
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<') safe += "\\u003c";
+    else safe += c;
+  }
+  return safe;
 }
 
 }  // namespace

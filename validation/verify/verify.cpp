@@ -49,7 +49,7 @@ std::vector<Material> through_map(const std::vector<Material>& materials, std::s
     if (!material.texture) material.texture = checkerboard();
     material.sampler.filter = Filter::nearest;
     material.indexing_map = make_map(material.texture->width(), material.texture->height());
-    material.map_sampler = {map_filter, material.sampler.wrap_u, material.sampler.wrap_v};
+    material.map_sampler = {map_filter, Wrap::clamp, Wrap::clamp};  // across a wrap a linear lookup would run through the whole map
   }
   return mapped;
 }

@@ -72,12 +72,23 @@ std::string without_place(const std::string& sentence) {
   return text;
 }
 
-// The targets in which the two sides differ at a texel; all of them where none does.
+bool same_bytes(const Pair& pair, std::size_t target, int x, int y) {
+  const std::size_t size = static_cast<std::size_t>(bytes_per_texel(pair.cpu[target].format()));
+  return std::memcmp(pair.cpu[target].texel(x, y), pair.gl[target].texel(x, y), size) == 0;
+}
+
+std::size_t first_differing_target(const Pair& pair, int x, int y) {
+  for (std::size_t t = 0; t < pair.cpu.size(); ++t) {
+    if (!same_bytes(pair, t, x, y)) return t;
+  }
+  return 0;
+}
+
+// The targets in which the two sides differ at a texel, with the values of one side.
 std::string side_text(const Pair& pair, const std::vector<Image>& side, const std::vector<TargetSpec>& targets, int x, int y) {
   std::string text;
   for (std::size_t t = 0; t < targets.size(); ++t) {
-    const std::size_t size = static_cast<std::size_t>(bytes_per_texel(pair.cpu[t].format()));
-    if (std::memcmp(pair.cpu[t].texel(x, y), pair.gl[t].texel(x, y), size) == 0) continue;
+    if (same_bytes(pair, t, x, y)) continue;
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", short_name(targets[t].content), texel_text(side[t], x, y));
   }
   return text;
@@ -91,7 +102,7 @@ WorstTexel worst_texel(const TexelReport& report, const Pair& pair, const std::v
   worst.cpu_value = side_text(pair, pair.cpu, targets, report.x, report.y);
   worst.gl_value = side_text(pair, pair.gl, targets, report.x, report.y);
   worst.explanation = without_place(report.sentence);
-  const auto shown = static_cast<std::size_t>(std::max(report.verdict.target, 0));
+  const std::size_t shown = first_differing_target(pair, report.x, report.y);
   worst.cpu_crop = crop(pair.cpu_picture[shown], report.x, report.y, kCropSize);
   worst.gl_crop = crop(pair.gl_picture[shown], report.x, report.y, kCropSize);
   return worst;

@@ -1,0 +1,164 @@
+// The main job with a device of our own making: one that keeps the contract, and ones with a defect planted.
+#include "validation/verify/verify.h"
+
+#include <cstring>
+#include <functional>
+
+#include <doctest/doctest.h>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/procedural/swirl.h"
+#include "raster/cpu_renderer.h"
+#include "validation/verify/verify_maps.h"
+
+using namespace etalon;
+using namespace etalon::validation;
+
+namespace {
+
+/// The exact renderer, whose images are then tampered with.
+class Tampered : public Renderer {
+ public:
+  explicit Tampered(std::function<void(std::vector<Image>&)> tamper = {}) : tamper_(std::move(tamper)) {}
+  [[nodiscard]] std::string name() const override { return "tampered"; }
+  [[nodiscard]] RasterState supported_state(const RasterState& wanted) const override { return wanted; }
+  [[nodiscard]] bool supports(const TargetSpec&) const override { return true; }
+  [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override {
+    std::vector<Image> images = exact_.render(list, frame);
+    if (tamper_) tamper_(images);
+    return images;
+  }
+
+ private:
+  raster::CpuRenderer exact_;
+  std::function<void(std::vector<Image>&)> tamper_;
+};
+
+VerifyModel swirl_model() {
+  procedural::Model source = procedural::make_swirl({.faces = 128, .texture_size = 32});
+  VerifyModel model;
+  model.name = "swirl";
+  model.mesh = source.mesh;
+  Material material;
+  material.texture = std::make_shared<const Image>(source.texture);
+  model.materials = {material};
+  model.inputs = {{.name = "swirl", .sha256 = std::string(64, '0'), .path = "", .role = "model", .attribution = ""}};
+  return model;
+}
+
+VerifyOptions small() {
+  VerifyOptions options;
+  options.width = 48;
+  options.height = 40;
+  options.picture_px = 48;
+  return options;
+}
+
+VerifyResult verify_with(Renderer* device, const VerifyOptions& options = small()) {
+  raster::CpuRenderer exact;
+  return run_verify({swirl_model()}, exact, {device, contract_model(), device == nullptr ? "no library" : ""}, options);
+}
+
+}  // namespace
+
+TEST_CASE("a device that keeps the contract agrees in every byte") {
+  Tampered device;
+  const VerifyResult result = verify_with(&device);
+  CHECK(verdict(result) == Verdict::agreed);
+  REQUIRE(result.jobs.size() == 2);
+  CHECK(result.jobs[0].cases.size() == 4);
+  CHECK(result.jobs[1].cases.size() == 2);
+  const ClassTally total = result.total();
+  CHECK(total.texels == 6 * 48 * 40);
+  CHECK(total.identical == total.texels);
+  for (const TargetResult& target : result.jobs[0].cases[0].targets) {
+    CHECK(target.difference->identical);
+    CHECK(target.gl_picture.empty());
+    CHECK(target.cpu_sha256 == target.gl_sha256);
+  }
+}
+
+TEST_CASE("one wrong byte fails the check and is shown") {
+  Tampered device([](std::vector<Image>& images) { images[0].channels<std::uint8_t>(24, 20)[1] ^= 0x10; });
+  VerifyOptions options = small();
+  options.jobs = {"render"};
+  const VerifyResult result = verify_with(&device, options);
+  CHECK(verdict(result) == Verdict::failed);
+  CHECK(result.total().unexplained == 4);
+  const CaseResult& item = result.jobs[0].cases[0];
+  CHECK(item.tally.unexplained == 1);
+  CHECK(!item.diagnosis.empty());
+  REQUIRE(item.worst.size() == 1);
+  CHECK(item.worst[0].x == 24);
+  CHECK(item.worst[0].y == 20);
+  CHECK(item.worst[0].texel_class == "unexplained");
+  CHECK(item.worst[0].cpu_value != item.worst[0].gl_value);
+  CHECK(item.worst[0].cpu_crop != item.worst[0].gl_crop);
+  CHECK(item.targets[0].difference->total.sse == 256);
+  CHECK(!item.targets[0].gl_picture.empty());
+}
+
+TEST_CASE("a missing row of texels is a coverage defect") {
+  Tampered device([](std::vector<Image>& images) {
+    for (int x = 0; x < images[1].width(); ++x) *images[1].channels<std::uint32_t>(x, 20) = kNoTriangle;
+  });
+  VerifyOptions options = small();
+  options.jobs = {"render"};
+  options.views = {{"front", {}}};
+  const VerifyResult result = verify_with(&device, options);
+  CHECK(verdict(result) == Verdict::failed);
+  CHECK(result.jobs[0].cases[0].diagnosis.find("coverage") != std::string::npos);
+}
+
+TEST_CASE("without a device the exact pictures are there and nothing is claimed") {
+  const VerifyResult result = verify_with(nullptr);
+  CHECK(verdict(result) == Verdict::not_compared);
+  CHECK(result.gl_unavailable == "no library");
+  CHECK(result.total().texels == 0);
+  const CaseResult& item = result.jobs[0].cases[0];
+  CHECK(!item.targets[0].cpu_picture.empty());
+  CHECK(!item.targets[0].difference.has_value());
+}
+
+TEST_CASE("what cannot be done is skipped or refused") {
+  Tampered device;
+  raster::CpuRenderer exact;
+  VerifyModel model = swirl_model();
+  model.mesh.has_uv = false;
+  const VerifyResult result = run_verify({model}, exact, {&device, contract_model(), ""}, small());
+  CHECK(result.jobs[1].skipped.rfind("no texture coordinates", 0) == 0);
+  CHECK(result.jobs[1].cases.empty());
+  // Beside a model that has coordinates the job is done for that one.
+  CHECK(run_verify({model, swirl_model()}, exact, {&device, contract_model(), ""}, small()).jobs[1].skipped.empty());
+  VerifyOptions wrong = small();
+  wrong.jobs = {"paint"};
+  CHECK_THROWS_AS((void)verify_with(&device, wrong), InputError);
+  wrong = small();
+  wrong.views = {{"sideways", {}}};
+  CHECK_THROWS_AS((void)verify_with(&device, wrong), InputError);
+}
+
+TEST_CASE("progress and scenes are told in order; pictures do not depend on threads") {
+  Tampered device([](std::vector<Image>& images) { images[0].channels<std::uint8_t>(3, 4)[0] ^= 1; });
+  VerifyOptions options = small();
+  int steps = 0;
+  int scenes = 0;
+  options.on_progress = [&](const std::string&, int done, int total) {
+    CHECK(done == steps++);
+    CHECK(total == 6);
+  };
+  options.on_case = [&](const CaseResult&) { ++scenes; };
+  set_thread_count(1);
+  const VerifyResult one = verify_with(&device, options);
+  CHECK(steps == 6);
+  CHECK(scenes == 6);
+  set_thread_count(7);
+  const VerifyResult seven = verify_with(&device, small());
+  set_thread_count(0);
+  for (std::size_t i = 0; i < one.jobs[0].cases.size(); ++i) {
+    CHECK(one.jobs[0].cases[i].class_picture == seven.jobs[0].cases[i].class_picture);
+    CHECK(one.jobs[0].cases[i].tally == seven.jobs[0].cases[i].tally);
+    CHECK(one.jobs[0].cases[i].targets[0].error_picture == seven.jobs[0].cases[i].targets[0].error_picture);
+  }
+}
