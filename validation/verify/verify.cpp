@@ -98,7 +98,12 @@ CaseResult run_case(const std::string& job, const Plan& plan, const Frame& frame
   item.description = plan.description;
   const Camera camera = plan.view.camera ? *plan.view.camera : named_view(plan.view.name, bounding_box(plan.model->mesh), frame.width, frame.height);
   const DrawList list = make_scene(plan.model->mesh, plan.materials, camera, frame);
-  compare_case(item, list, frame, exact, device, options);
+  const auto scene_with_snap = [&](SnapRounding snap) {
+    Frame other = frame;
+    other.state.snap = snap;
+    return make_scene(plan.model->mesh, plan.materials, camera, other);
+  };
+  compare_case(item, list, frame, exact, device, options, scene_with_snap);
   return item;
 }
 
