@@ -249,6 +249,7 @@ RandomScene make_random_scene(std::uint64_t seed, const RasterState& device_stat
   scene.frame.width = random_size(rng, largest);
   scene.frame.height = random_size(rng, largest);
   scene.frame.guard = one_of(rng, {0, 13, 64, 700, 2048, 7000});
+  scene.frame.guard = std::min(scene.frame.guard, (16384 - std::max(scene.frame.width, scene.frame.height)) / 2);
   scene.frame.state = device_state;
   scene.frame.targets = random_targets(rng);
 
