@@ -35,11 +35,17 @@ candidate_of() {
   return 1
 }
 
-# Prints "download, disk" of an installation in apt's own words.
+# Prints what an installation downloads and takes, by apt's simulation (`apt-get --assume-no` would install where it has no question to ask).
 installation_size() {
-  LC_ALL=C apt-get install --no-install-recommends --assume-no "$@" 2>/dev/null |
-    sed -n 's/^Need to get \(.*\) of archives\./\1 to download/p; s/^After this operation, \(.*\) of additional disk space will be used\./\1 of disk/p' |
-    paste -sd, - | sed 's/,/, /'
+  local names
+  names=$(LC_ALL=C apt-get -s install --no-install-recommends "$@" 2>/dev/null | awk '/^Inst / { print $2 }')
+  [ -n "$names" ] || { echo "size unknown"; return 0; }
+  # shellcheck disable=SC2086 # a list of names
+  LC_ALL=C apt-cache show --no-all-versions $names 2>/dev/null | awk '
+    /^Package:/ { count++ }
+    /^Size:/ { download += $2 }
+    /^Installed-Size:/ { disk += $2 }
+    END { printf "%d packages, %.1f MB to download, %.1f MB of disk\n", count, download / 1e6, disk * 1024 / 1e6 }'
 }
 
 # apt_get ARGUMENTS…: as root, or through sudo; waits up to five minutes for another apt to finish.
@@ -66,6 +72,7 @@ install_packages() {
     return 0
   fi
   for section in "$@"; do
+    [ -n "$(section_packages "$section")" ] || die 4 "packages.txt has no section [$section]"
     while IFS=$'\t' read -r kind names reason; do
       any_installed "$names" && continue
       if [ "$kind" = required ]; then required+=("$names"); else optional+=("$names"); reasons+=("$reason"); fi
@@ -100,7 +107,7 @@ install_packages() {
     resolved+=("$name")
   done
   if [ ${#resolved[@]} -gt 0 ]; then
-    say "installing ${#resolved[@]} packages and what they need: $(installation_size "${resolved[@]}")"
+    say "installing with what they need: $(installation_size "${resolved[@]}")"
     apt_get install -y -q --no-install-recommends "${resolved[@]}" >>"$log" 2>&1 ||
       { tail -n 15 "$log" >&2; die 4 "apt-get install failed; the whole log is $log"; }
   fi
