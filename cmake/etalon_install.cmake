@@ -2,10 +2,10 @@
 
 include(CMakePackageConfigHelpers)
 
-# The whole public tree: "core/mesh/mesh.h" is include/etalon/core/mesh/mesh.h.
+# The whole public tree: "core/mesh/mesh.h" is include/etalon/core/mesh/mesh.h; tables that headers include (.inc) go with them.
 foreach(folder core raster gpu validation)
   if(EXISTS "${PROJECT_SOURCE_DIR}/${folder}" AND (NOT folder STREQUAL gpu OR ETALON_GPU))
-    install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/etalon" FILES_MATCHING PATTERN "*.h")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/etalon" FILES_MATCHING PATTERN "*.h" PATTERN "*.inc")
   endif()
 endforeach()
 
