@@ -4,10 +4,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 #include <unistd.h>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 
 #include "cli/interrupt.h"
 #include "cli/usage_error.h"
@@ -34,7 +34,9 @@ void require_writable_existing(const fs::path& folder, const std::string& shown)
 
 void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& example) {
   verb.add_option("--json", options.json, "Write the result as a JSON document ('-': standard output)")->type_name("FILE");
-  verb.add_option("--threads", options.threads, "Threads to use (default: all cores); no output byte depends on it")->type_name("N")->check(CLI::Range(1, 1024));
+  verb.add_option("--threads", options.threads, "Threads to use (default: all cores); no output byte depends on it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
   verb.add_flag("--quiet", options.quiet, "Print errors only");
   verb.set_version_flag("--version", "etalon " + validation::etalon_version());
   verb.footer("Example:\n" + example);

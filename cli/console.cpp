@@ -18,9 +18,12 @@ std::string one_line(const std::string& text) {
   std::string result;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '\n' || c == '\r' || c == '\t') result += ' ';
-    else if (byte < 0x20 || byte == 0x7F) result += fmt::format("\\x{:02x}", byte);
-    else result += c;
+    if (c == '\n' || c == '\r' || c == '\t')
+      result += ' ';
+    else if (byte < 0x20 || byte == 0x7F)
+      result += fmt::format("\\x{:02x}", byte);
+    else
+      result += c;
   }
   while (!result.empty() && result.back() == ' ') result.pop_back();
   return result;

@@ -11,8 +11,12 @@
 namespace etalon::cli {
 
 void add_gl_options(CLI::App& verb, GlOptions& options) {
-  verb.add_option("--context", options.context, "Where the OpenGL context comes from: auto, osmesa (egl: not in this version)")->type_name("KIND")->check(CLI::IsMember({"auto", "osmesa", "egl"}));
-  verb.add_option("--driver", options.driver, "Mesa's rasterizer: llvmpipe, softpipe, default")->type_name("NAME")->check(CLI::IsMember({"llvmpipe", "softpipe", "default"}));
+  verb.add_option("--context", options.context, "Where the OpenGL context comes from: auto, osmesa (egl: not in this version)")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
+  verb.add_option("--driver", options.driver, "Mesa's rasterizer: llvmpipe, softpipe, default")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"llvmpipe", "softpipe", "default"}));
 }
 
 #ifdef ETALON_HAVE_GPU
@@ -37,7 +41,8 @@ OpenedDevice open_device(const GlOptions& options, int threads) {
   if (options.context == "egl") throw UsageError("--context: egl is not in this version, use osmesa");
   OpenedDevice opened;
   try {
-    auto renderer = std::make_unique<gpu::GlRenderer>(gpu::ContextOptions{.driver = driver_of(options.driver), .threads = threads > 0 ? threads : -1, .library_path = ""});
+    auto renderer = std::make_unique<gpu::GlRenderer>(
+        gpu::ContextOptions{.driver = driver_of(options.driver), .threads = threads > 0 ? threads : -1, .library_path = ""});
     opened.model = model_of(renderer->device());
     opened.renderer = std::move(renderer);
   } catch (const UnavailableError& error) {

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
 
 #include "cli/attribution.h"
 #include "cli/exit_code.h"
@@ -94,8 +94,14 @@ Finding examine_mesh(const std::string& path) {
   for (const io::Material& material : model.materials) {
     const Image texture = io::load_texture(material);
     Json entry = {{"name", material.name}};
-    entry["texture"] = texture.empty() ? Json(nullptr) : Json{{"width", texture.width()}, {"height", texture.height()}, {"format", to_string(texture.format())}, {"sha256", texture.sha256()}};
-    finding.lines.push_back(fmt::format("material '{}': {}", material.name, texture.empty() ? "no texture" : fmt::format("texture {}x{} {}", texture.width(), texture.height(), to_string(texture.format()))));
+    entry["texture"] = texture.empty() ? Json(nullptr)
+                                       : Json{{"width", texture.width()},
+                                              {"height", texture.height()},
+                                              {"format", to_string(texture.format())},
+                                              {"sha256", texture.sha256()}};
+    finding.lines.push_back(fmt::format(
+        "material '{}': {}", material.name,
+        texture.empty() ? "no texture" : fmt::format("texture {}x{} {}", texture.width(), texture.height(), to_string(texture.format()))));
     materials.push_back(std::move(entry));
   }
   for (const std::string& note : model.notes) finding.lines.push_back("note: " + note);
@@ -111,7 +117,8 @@ Finding examine_image(const std::string& path) {
   Finding finding;
   finding.lines.push_back(fmt::format("image {}x{} {}", image.width(), image.height(), to_string(image.format())));
   finding.members["kind"] = "image";
-  finding.members["image"] = {{"width", image.width()}, {"height", image.height()}, {"format", to_string(image.format())}, {"sha256", image.sha256()}};
+  finding.members["image"] = {
+      {"width", image.width()}, {"height", image.height()}, {"format", to_string(image.format())}, {"sha256", image.sha256()}};
   return finding;
 }
 
@@ -143,7 +150,9 @@ Finding examine_exr(const std::string& path) {
 Finding examine(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  const auto is_one_of = [&](std::initializer_list<const char*> list) { return std::any_of(list.begin(), list.end(), [&](const char* e) { return extension == e; }); };
+  const auto is_one_of = [&](std::initializer_list<const char*> list) {
+    return std::any_of(list.begin(), list.end(), [&](const char* e) { return extension == e; });
+  };
   if (is_one_of({".obj", ".ply", ".glb", ".gltf"})) return examine_mesh(path);
   if (extension == ".exr") return examine_exr(path);
   if (is_one_of({".png", ".jpg", ".jpeg", ".tif", ".tiff"})) return examine_image(path);

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
 
 #include "cli/console.h"
 #include "cli/exit_code.h"
@@ -38,7 +38,8 @@ void require_known_verb(int argc, char** argv, const std::vector<Verb>& verbs) {
   for (const Verb& verb : verbs) names.push_back(verb.app->get_name());
   if (std::find(names.begin(), names.end(), typed) != names.end()) return;
   const auto nearest = nearest_word(typed, names);
-  throw UsageError(fmt::format("unknown verb '{}'{} (see etalon --help)", typed, nearest ? fmt::format(", did you mean '{}'?", *nearest) : ""));
+  throw UsageError(
+      fmt::format("unknown verb '{}'{} (see etalon --help)", typed, nearest ? fmt::format(", did you mean '{}'?", *nearest) : ""));
 }
 
 std::string prefix_of(const std::vector<Verb>& verbs) {
@@ -52,8 +53,9 @@ int run(int argc, char** argv) {
   CLI::App root("étalon: an exact CPU rasterizer, the same scenes on OpenGL, and an explanation of every texel that differs.", "etalon");
   root.set_version_flag("--version", "etalon " + validation::etalon_version());
   root.require_subcommand(1);
-  root.footer("Examples:\n  etalon verify\n  etalon verify spot.obj --report spot-report\n  etalon render head.glb -o head.png\n"
-              "Exit codes: 0 done, 1 warning, 2 check failed, 3 sizes differ, 4 bad input or write error, 64 usage, 130 interrupted.");
+  root.footer(
+      "Examples:\n  etalon verify\n  etalon verify spot.obj --report spot-report\n  etalon render head.glb -o head.png\n"
+      "Exit codes: 0 done, 1 warning, 2 check failed, 3 sizes differ, 4 bad input or write error, 64 usage, 130 interrupted.");
   const std::vector<Verb> verbs{add_verify(root), add_render(root), add_info(root), add_make(root)};
   require_known_verb(argc, argv, verbs);
   try {

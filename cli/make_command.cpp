@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
 
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
@@ -61,8 +61,9 @@ int run_make(const MakeOptions& options) {
     const FinishWriting finish;
     io::write_mesh(options.output, model.mesh, {io::Material{.name = model.name, .texture_path = {}, .texture = model.texture}});
   }
-  console.line(fmt::format("{}: {} with {} vertices, {} faces, texture {}x{}", options.output, model.name, validation::grouped(model.mesh.vertex_count()),
-                           validation::grouped(model.mesh.face_count()), model.texture.width(), model.texture.height()));
+  console.line(fmt::format("{}: {} with {} vertices, {} faces, texture {}x{}", options.output, model.name,
+                           validation::grouped(model.mesh.vertex_count()), validation::grouped(model.mesh.face_count()),
+                           model.texture.width(), model.texture.height()));
   write_document(options.common, document_of(options, model));
   return kExitDone;
 }
@@ -72,9 +73,16 @@ int run_make(const MakeOptions& options) {
 Verb add_make(CLI::App& root) {
   const auto options = std::make_shared<MakeOptions>();
   CLI::App* app = root.add_subcommand("make", "Write a procedural model and its texture");
-  app->add_option("what", options->what, "swirl: the curved grid of a swirled texture; head: the embedded default")->required()->check(CLI::IsMember({"swirl", "head"}))->type_name("swirl|head");
-  app->add_option("--faces", options->faces, "About how many triangles (default: 7,688 and 7,685)")->type_name("N")->check(CLI::Range(1, 2000000));
-  app->add_option("--texture-size", options->texture_size, "Side of the texture in texels (default 1024)")->type_name("N")->check(CLI::Range(64, 8192));
+  app->add_option("what", options->what, "swirl: the curved grid of a swirled texture; head: the embedded default")
+      ->required()
+      ->check(CLI::IsMember({"swirl", "head"}))
+      ->type_name("swirl|head");
+  app->add_option("--faces", options->faces, "About how many triangles (default: 7,688 and 7,685)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 2000000));
+  app->add_option("--texture-size", options->texture_size, "Side of the texture in texels (default 1024)")
+      ->type_name("N")
+      ->check(CLI::Range(64, 8192));
   app->add_option("-o,--output", options->output, "Model to write: .obj, .ply or .glb")->required()->type_name("FILE");
   add_common_options(*app, options->common, "  etalon make head -o head.obj");
   return {app, [options] { return run_make(*options); }};

@@ -68,7 +68,9 @@ void stand_in_for_textures(VerifyModel& model) {
   if (any_texture || !model.mesh.colors.empty()) return;
   if (!model.mesh.has_uv) {
     project_uv(model.mesh);
-    model.notes.push_back("no texture, colours or texture coordinates: drawn with a checkerboard projected along z (try --texture with a model that has coordinates)");
+    model.notes.push_back(
+        "no texture, colours or texture coordinates: drawn with a checkerboard projected along z (try --texture with a model that has "
+        "coordinates)");
   } else {
     model.notes.push_back("no texture and no colours: drawn with a checkerboard (try --texture IMG)");
   }
@@ -81,7 +83,9 @@ void stand_in_for_textures(VerifyModel& model) {
 void add_model_options(CLI::App& verb, ModelOptions& options) {
   verb.add_option("--texture", options.texture, "Image that replaces the model's own textures")->type_name("IMG");
   verb.add_flag("--flip-v", options.flip_v, "The model's texture coordinates run from top to bottom against its format's convention");
-  verb.add_option("--snap-bits", options.snap_bits, "Sub-texel bits of raster positions (default 8)")->type_name("N")->check(CLI::Range(1, 16));
+  verb.add_option("--snap-bits", options.snap_bits, "Sub-texel bits of raster positions (default 8)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 16));
 }
 
 VerifyModel load_model(const std::string& path, const ModelOptions& options) {

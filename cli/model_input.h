@@ -11,9 +11,9 @@
 namespace etalon::cli {
 
 struct ModelOptions {
-  std::string texture;    ///< image that replaces the model's own textures
-  bool flip_v = false;    ///< the model's v runs the other way
-  int snap_bits = 8;      ///< sub-texel bits
+  std::string texture;  ///< image that replaces the model's own textures
+  bool flip_v = false;  ///< the model's v runs the other way
+  int snap_bits = 8;    ///< sub-texel bits
 };
 
 void add_model_options(CLI::App& verb, ModelOptions& options);

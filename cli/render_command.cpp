@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
 
 #include "cli/exit_code.h"
 #include "cli/gl_options.h"
@@ -44,7 +44,8 @@ OutputKind output_kind(const Options& options) {
   std::string extension = std::filesystem::path(options.output).extension().string();
   for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   const bool png = options.output == "-" || extension == ".png";
-  if (!png && extension != ".exr") throw UsageError(fmt::format("-o: expected a name that ends in .png or .exr, or '-', got '{}'", options.output));
+  if (!png && extension != ".exr")
+    throw UsageError(fmt::format("-o: expected a name that ends in .png or .exr, or '-', got '{}'", options.output));
   if (options.margins && png) throw UsageError("--margins needs an OpenEXR file: -o OUT.exr");
   if (options.margins && options.backend == "gl") throw UsageError("--margins needs the exact side: --backend cpu");
   return png ? OutputKind::png : OutputKind::exr;
@@ -80,8 +81,10 @@ void write_output(const Options& options, OutputKind kind, std::vector<Image> im
     return;
   }
   const FinishWriting finish;
-  if (kind == OutputKind::png) io::write_image(options.output, images.front());
-  else io::write_exr(options.output, {exr_layers(std::move(images)), {{"drawListSha256", list_sha256}}});
+  if (kind == OutputKind::png)
+    io::write_image(options.output, images.front());
+  else
+    io::write_exr(options.output, {exr_layers(std::move(images)), {{"drawListSha256", list_sha256}}});
 }
 
 int run(const Options& options) {
@@ -121,10 +124,12 @@ int run(const Options& options) {
   document["draw_list_sha256"] = draw_list_sha256(list);
   document["targets"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < images.size(); ++i) {
-    document["targets"].push_back({{"content", to_string(frame.targets[i].content)}, {"format", to_string(frame.targets[i].format)}, {"sha256", images[i].sha256()}});
+    document["targets"].push_back(
+        {{"content", to_string(frame.targets[i].content)}, {"format", to_string(frame.targets[i].format)}, {"sha256", images[i].sha256()}});
   }
   write_output(options, kind, std::move(images), document["draw_list_sha256"]);
-  console.line(fmt::format("{}: {}x{}, {} triangles, {}", options.output, frame.width, frame.height, grouped(list.triangles.size()), renderer->name()));
+  console.line(fmt::format("{}: {}x{}, {} triangles, {}", options.output, frame.width, frame.height, grouped(list.triangles.size()),
+                           renderer->name()));
   RunInfo run_info = current_run(options.common.start);
   run_info.paths = {options.model_path};
   if (options.backend == "gl") run_info.device = renderer->name();
@@ -139,11 +144,17 @@ Verb add_render(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("render", "Draw one picture of a model");
   app->add_option("model", options->model_path, "Mesh file: .obj, .ply, .glb, .gltf")->required()->type_name("MODEL");
-  app->add_option("-o,--output", options->output, "Picture to write: .png, .exr (colour as float32), or '-' for a PNG on standard output")->required()->type_name("FILE");
+  app->add_option("-o,--output", options->output, "Picture to write: .png, .exr (colour as float32), or '-' for a PNG on standard output")
+      ->required()
+      ->type_name("FILE");
   app->add_option("--view", options->view, "front, fit, N/24 or a view file (default fit)")->type_name("NAME|FILE");
   app->add_option("--size", options->size, "Frame, WxH or one number (default 1024)")->type_name("WxH");
-  app->add_option("--backend", options->backend, "cpu: the exact rasterizer (default); gl: OpenGL")->check(CLI::IsMember({"cpu", "gl"}))->type_name("SIDE");
-  app->add_option("--filter", options->filter, "Texture filter: nearest (default) or linear")->check(CLI::IsMember({"nearest", "linear"}))->type_name("KIND");
+  app->add_option("--backend", options->backend, "cpu: the exact rasterizer (default); gl: OpenGL")
+      ->check(CLI::IsMember({"cpu", "gl"}))
+      ->type_name("SIDE");
+  app->add_option("--filter", options->filter, "Texture filter: nearest (default) or linear")
+      ->check(CLI::IsMember({"nearest", "linear"}))
+      ->type_name("KIND");
   app->add_flag("--margins", options->margins, "Also triangle ids, depth, and how close every decision was (.exr, --backend cpu)");
   add_model_options(*app, options->model);
   add_gl_options(*app, options->gl);

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
+#include <fmt/format.h>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <fmt/format.h>
 
 #include "cli/exit_code.h"
 #include "cli/gl_options.h"
@@ -47,7 +47,8 @@ std::vector<VerifyModel> load_models(const Options& options, Console& console) {
   }
   for (const std::string& path : options.models) models.push_back(load_model(path, options.model));
   for (const VerifyModel& model : models) {
-    console.line(fmt::format("model    {}: {} faces{}", model.inputs.front().name, grouped(model.mesh.face_count()), model.mesh.has_uv ? "" : ", no texture coordinates"));
+    console.line(fmt::format("model    {}: {} faces{}", model.inputs.front().name, grouped(model.mesh.face_count()),
+                             model.mesh.has_uv ? "" : ", no texture coordinates"));
     for (const std::string& note : model.notes) console.line("         note: " + note);
   }
   return models;
@@ -68,9 +69,12 @@ VerifyOptions verify_options(const Options& options, Console& console) {
   result.on_progress = [&console](const std::string& label, int done, int total) { console.progress(label, done, total); };
   result.on_case = [&console](const CaseResult& item) {
     const std::string compared = item.tally.texels == 0 ? "not compared"
-                                 : item.tally.unexplained == 0 ? fmt::format("gl {:.2f} s, {} texels differ, all explained", item.gl_seconds, grouped(item.tally.texels - item.tally.identical))
-                                                               : fmt::format("gl {:.2f} s, {} texels UNEXPLAINED", item.gl_seconds, grouped(item.tally.unexplained));
-    console.line(fmt::format("{:<8} {}: {}x{}, cpu {:.2f} s, {}", item.job, item.name(), item.width, item.height, item.cpu_seconds, compared));
+                                 : item.tally.unexplained == 0
+                                     ? fmt::format("gl {:.2f} s, {} texels differ, all explained", item.gl_seconds,
+                                                   grouped(item.tally.texels - item.tally.identical))
+                                     : fmt::format("gl {:.2f} s, {} texels UNEXPLAINED", item.gl_seconds, grouped(item.tally.unexplained));
+    console.line(
+        fmt::format("{:<8} {}: {}x{}, cpu {:.2f} s, {}", item.job, item.name(), item.width, item.height, item.cpu_seconds, compared));
   };
   return result;
 }
@@ -131,10 +135,16 @@ int run(const Options& options) {
 Verb add_verify(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("verify", "Draw models on the exact rasterizer and on OpenGL, and explain every texel that differs");
-  app->add_option("models", options->models, "Mesh files: .obj, .ply, .glb, .gltf (default: the embedded head and swirl)")->type_name("MODEL");
-  app->add_option("--jobs", options->jobs, "Jobs to do, with commas: render, indexed")->type_name("LIST")->delimiter(',')->check(CLI::IsMember(verify_jobs()));
+  app->add_option("models", options->models, "Mesh files: .obj, .ply, .glb, .gltf (default: the embedded head and swirl)")
+      ->type_name("MODEL");
+  app->add_option("--jobs", options->jobs, "Jobs to do, with commas: render, indexed")
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->check(CLI::IsMember(verify_jobs()));
   app->add_option("--size", options->size, "Frame, WxH or one number (default 1024)")->type_name("WxH");
-  app->add_option("--view", options->views, "front, fit, N/24 or a view file; may be repeated (default: fit and front)")->type_name("NAME|FILE")->take_all();
+  app->add_option("--view", options->views, "front, fit, N/24 or a view file; may be repeated (default: fit and front)")
+      ->type_name("NAME|FILE")
+      ->take_all();
   app->add_option("--report", options->report, "Folder of the report (default etalon-report)")->type_name("DIR");
   add_model_options(*app, options->model);
   add_gl_options(*app, options->gl);

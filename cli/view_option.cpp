@@ -35,7 +35,8 @@ double number(const Json& document, const std::string& file, const char* key) {
 }
 
 Vec3d vector3(const Json& document, const std::string& file, const char* key) {
-  if (!document.contains(key) || !document[key].is_array() || document[key].size() != 3) refuse(file, fmt::format("'{}': expected three numbers", key));
+  if (!document.contains(key) || !document[key].is_array() || document[key].size() != 3)
+    refuse(file, fmt::format("'{}': expected three numbers", key));
   Vec3d result{0, 0, 0};
   for (int i = 0; i < 3; ++i) {
     const Json& item = document[key][static_cast<std::size_t>(i)];

@@ -10,7 +10,8 @@ using nlohmann::json;
 
 namespace {
 
-json checked_document(const std::vector<std::string>& arguments, const std::string& schema_name, const ScratchFolder& folder, int exit_code = 0) {
+json checked_document(const std::vector<std::string>& arguments, const std::string& schema_name, const ScratchFolder& folder,
+                      int exit_code = 0) {
   std::vector<std::string> with_json = arguments;
   with_json.insert(with_json.end(), {"--json", "-"});
   const CommandResult result = run_etalon(with_json, {.folder = folder.path()});
@@ -49,7 +50,8 @@ TEST_CASE("make, info, render: documents match their schemas") {
   CHECK(content["attributes"]["drawListSha256"] == exr["draw_list_sha256"]);
   std::vector<std::string> channels;
   for (const json& channel : content["channels"]) channels.push_back(channel["name"]);
-  CHECK(channels == std::vector<std::string>{"A", "B", "G", "R", "Z", "bound.uv", "bound.z", "id.triangle", "margin.edge", "margin.u", "margin.v", "margin.z"});
+  CHECK(channels == std::vector<std::string>{"A", "B", "G", "R", "Z", "bound.uv", "bound.z", "id.triangle", "margin.edge", "margin.u",
+                                             "margin.v", "margin.z"});
 }
 
 TEST_CASE("a model without texture coordinates has a document too") {
@@ -60,10 +62,12 @@ TEST_CASE("a model without texture coordinates has a document too") {
 
 TEST_CASE("verify: document, report and standard output say the same for 1, 2 and 7 threads") {
   const ScratchFolder folder;
-  REQUIRE(run_etalon({"make", "swirl", "--faces", "512", "--texture-size", "64", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code == 0);
+  REQUIRE(run_etalon({"make", "swirl", "--faces", "512", "--texture-size", "64", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code ==
+          0);
   std::string first;
   for (const char* threads : {"1", "2", "7"}) {
-    const CommandResult result = run_etalon({"verify", "swirl.obj", "--size", "160x120", "--report", std::string("report") + threads, "--json", "verify.json", "--quiet", "--threads", threads},
+    const CommandResult result = run_etalon({"verify", "swirl.obj", "--size", "160x120", "--report", std::string("report") + threads,
+                                             "--json", "verify.json", "--quiet", "--threads", threads},
                                             {.folder = folder.path()});
     REQUIRE((result.exit_code == 0 || result.exit_code == 1));  // 1: no OpenGL on this machine
     CHECK(result.out.empty());

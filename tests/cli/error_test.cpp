@@ -12,7 +12,8 @@ using namespace etalon::test;
 
 namespace {
 
-void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions, CommandOptions options = {}) {
+void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions,
+                   CommandOptions options = {}) {
   std::string shown;
   for (const std::string& argument : arguments) shown += argument + " ";
   CAPTURE(shown);
@@ -73,8 +74,12 @@ TEST_CASE("bad models: 4") {
       {"no_faces.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"},
       {"empty.obj", ""},
       {"words.obj", "v a b c\n"},
-      {"truncated.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1000\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\nxx"},
-      {"huge.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n"},
+      {"truncated.ply",
+       "ply\nformat binary_little_endian 1.0\nelement vertex 1000\nproperty float x\nproperty float y\nproperty float z\nelement face "
+       "1\nproperty list uchar int vertex_indices\nend_header\nxx"},
+      {"huge.ply",
+       "ply\nformat ascii 1.0\nelement vertex 99999999999\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty "
+       "list uchar int vertex_indices\nend_header\n0 0 0\n"},
       {"corrupt.glb", "glTF\x02"},
       {"corrupt.gltf", "{\"asset\":"},
       {"unknown.xyz", "0 0 0"},
@@ -100,7 +105,8 @@ TEST_CASE("bad textures and views: 4") {
   folder.file("broken.png", "\x89PNG\r\n\x1a\n....");
   folder.file("text.json", "hello");
   folder.file("short.json", R"({"schema":"etalon/view/1","eye":[0,0]})");
-  folder.file("same.json", R"({"schema":"etalon/view/1","eye":[0,0,0],"target":[0,0,0],"up":[0,1,0],"tan_half_fov_y":0.5,"near":0.1,"far":10})");
+  folder.file("same.json",
+              R"({"schema":"etalon/view/1","eye":[0,0,0],"target":[0,0,0],"up":[0,1,0],"tan_half_fov_y":0.5,"near":0.1,"far":10})");
   folder.file("other.json", R"({"schema":"etalon/view/2"})");
   check_refused({"render", "square.obj", "--texture", "broken.png", "-o", "a.png"}, 4, folder, "broken.png");
   check_refused({"render", "square.obj", "--texture", "missing.png", "-o", "a.png"}, 4, folder, "missing.png");

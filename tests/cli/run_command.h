@@ -8,19 +8,19 @@
 namespace etalon::test {
 
 struct CommandResult {
-  int exit_code = -1;       ///< 128 + signal where one ended it
-  std::string out;          ///< standard output
-  std::string err;          ///< standard error
+  int exit_code = -1;  ///< 128 + signal where one ended it
+  std::string out;     ///< standard output
+  std::string err;     ///< standard error
   [[nodiscard]] std::vector<std::string> error_lines() const;
 };
 
 struct CommandOptions {
-  std::filesystem::path folder;                ///< working directory
-  std::vector<std::string> environment;        ///< "NAME=value", added
-  std::string stdout_path;                     ///< instead of a pipe: a file or device
-  long file_size_limit_bytes = -1;             ///< RLIMIT_FSIZE: a full disk, as far as a program can tell
-  bool as_nobody = false;                      ///< where the test runs as root: give that up
-  int interrupt_after_ms = -1;                 ///< SIGINT this long after the start
+  std::filesystem::path folder;          ///< working directory
+  std::vector<std::string> environment;  ///< "NAME=value", added
+  std::string stdout_path;               ///< instead of a pipe: a file or device
+  long file_size_limit_bytes = -1;       ///< RLIMIT_FSIZE: a full disk, as far as a program can tell
+  bool as_nobody = false;                ///< where the test runs as root: give that up
+  int interrupt_after_ms = -1;           ///< SIGINT this long after the start
 };
 
 [[nodiscard]] CommandResult run_etalon(const std::vector<std::string>& arguments, const CommandOptions& options = {});

@@ -10,8 +10,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::set<std::string> kKeywords{"$schema", "$defs", "$ref", "title", "type", "properties", "required", "additionalProperties",
-                                      "items", "prefixItems", "enum", "const", "minimum", "pattern"};
+const std::set<std::string> kKeywords{
+    "$schema", "$defs",       "$ref", "title", "type",    "properties", "required", "additionalProperties",
+    "items",   "prefixItems", "enum", "const", "minimum", "pattern"};
 
 class Validator {
  public:
@@ -22,11 +23,16 @@ class Validator {
       if (kKeywords.count(keyword) == 0) throw std::runtime_error("schema keyword not supported: " + keyword);
     }
     if (schema.contains("$ref")) return check(resolve(schema["$ref"]), value, at);
-    if (schema.contains("type") && !matches_type(schema["type"], value)) return report(at, "expected " + schema["type"].dump() + ", got " + value.dump().substr(0, 40));
+    if (schema.contains("type") && !matches_type(schema["type"], value))
+      return report(at, "expected " + schema["type"].dump() + ", got " + value.dump().substr(0, 40));
     if (schema.contains("const") && value != schema["const"]) report(at, "expected " + schema["const"].dump());
-    if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end()) report(at, "expected one of " + schema["enum"].dump());
-    if (schema.contains("minimum") && value.is_number() && value.get<double>() < schema["minimum"].get<double>()) report(at, "below the minimum");
-    if (schema.contains("pattern") && value.is_string() && !std::regex_search(value.get<std::string>(), std::regex(schema["pattern"].get<std::string>()))) report(at, "does not match the pattern");
+    if (schema.contains("enum") && std::find(schema["enum"].begin(), schema["enum"].end(), value) == schema["enum"].end())
+      report(at, "expected one of " + schema["enum"].dump());
+    if (schema.contains("minimum") && value.is_number() && value.get<double>() < schema["minimum"].get<double>())
+      report(at, "below the minimum");
+    if (schema.contains("pattern") && value.is_string() &&
+        !std::regex_search(value.get<std::string>(), std::regex(schema["pattern"].get<std::string>())))
+      report(at, "does not match the pattern");
     if (value.is_object()) check_object(schema, value, at);
     if (value.is_array()) check_array(schema, value, at);
   }
@@ -62,9 +68,12 @@ class Validator {
     const Json additional = schema.value("additionalProperties", Json(true));
     for (const auto& [name, member] : value.items()) {
       const std::string place = at + "/" + name;
-      if (properties.contains(name)) check(properties[name], member, place);
-      else if (additional.is_object()) check(additional, member, place);
-      else if (additional == false) report(place, "not in the schema");
+      if (properties.contains(name))
+        check(properties[name], member, place);
+      else if (additional.is_object())
+        check(additional, member, place);
+      else if (additional == false)
+        report(place, "not in the schema");
     }
   }
 
@@ -73,8 +82,10 @@ class Validator {
     if (!prefix.empty() && prefix.size() != value.size()) report(at, "expected " + std::to_string(prefix.size()) + " items");
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string place = at + "/" + std::to_string(i);
-      if (i < prefix.size()) check(prefix[i], value[i], place);
-      else if (schema.contains("items")) check(schema["items"], value[i], place);
+      if (i < prefix.size())
+        check(prefix[i], value[i], place);
+      else if (schema.contains("items"))
+        check(schema["items"], value[i], place);
     }
   }
 

@@ -6,7 +6,8 @@ using etalon::test::schema_violations;
 using nlohmann::json;
 
 TEST_CASE("the validator refuses what each keyword forbids") {
-  const json schema = json::parse(R"({"type":"object","properties":{"n":{"type":"integer","minimum":0},"k":{"enum":["a","b"]},"c":{"const":1},
+  const json schema =
+      json::parse(R"({"type":"object","properties":{"n":{"type":"integer","minimum":0},"k":{"enum":["a","b"]},"c":{"const":1},
     "s":{"type":["string","null"],"pattern":"^x"},"l":{"type":"array","items":{"$ref":"#/$defs/n"}},"p":{"prefixItems":[{"type":"integer"},{"type":"string"}]}},
     "required":["n"],"additionalProperties":false,"$defs":{"n":{"type":"number"}}})");
   const auto count = [&](const char* text) { return schema_violations(schema, json::parse(text)).size(); };

@@ -22,7 +22,8 @@ TEST_CASE("verify: table, report line, exit code") {
   CHECK(result.out.find("unbounded") != std::string::npos);
   CHECK(result.out.find("\nreport: file:///") != std::string::npos);
   CHECK(result.out.find("note: no texture and no colours: drawn with a checkerboard") != std::string::npos);
-  CHECK(folder.listing() == std::vector<std::string>{"etalon-report", "etalon-report/classes.csv", "etalon-report/index.html", "etalon-report/verify.json", "square.obj"});
+  CHECK(folder.listing() == std::vector<std::string>{"etalon-report", "etalon-report/classes.csv", "etalon-report/index.html",
+                                                     "etalon-report/verify.json", "square.obj"});
   if (!has_gl(result)) {
     report_skip("verify: table, report line, exit code", "no OpenGL: comparison not tested");
     CHECK(result.exit_code == 1);
@@ -39,7 +40,9 @@ TEST_CASE("verify without OpenGL says why, draws what it can, and exits with 1")
   const ScratchFolder folder;
   folder.file("square.obj", square_obj());
   // Mesa then offers less than the 3.3 that is needed: the same path as a missing library.
-  const CommandResult result = run_etalon({"verify", "square.obj", "--size", "32"}, {.folder = folder.path(), .environment = {"MESA_GL_VERSION_OVERRIDE=2.1", "MESA_GLSL_VERSION_OVERRIDE=120"}});
+  const CommandResult result =
+      run_etalon({"verify", "square.obj", "--size", "32"},
+                 {.folder = folder.path(), .environment = {"MESA_GL_VERSION_OVERRIDE=2.1", "MESA_GLSL_VERSION_OVERRIDE=120"}});
   CAPTURE(result.out);
   CHECK(result.exit_code == 1);
   CHECK(result.err.empty());
@@ -50,7 +53,8 @@ TEST_CASE("verify without OpenGL says why, draws what it can, and exits with 1")
   CHECK(document["renderers"]["gl"].is_null());
   CHECK(document["total"]["texels"] == 0);
 
-  const CommandResult render = run_etalon({"render", "square.obj", "--backend", "gl", "-o", "a.png"}, {.folder = folder.path(), .environment = {"MESA_GL_VERSION_OVERRIDE=2.1"}});
+  const CommandResult render = run_etalon({"render", "square.obj", "--backend", "gl", "-o", "a.png"},
+                                          {.folder = folder.path(), .environment = {"MESA_GL_VERSION_OVERRIDE=2.1"}});
   CHECK(render.exit_code == 1);
   CHECK(render.error_lines().size() == 1);
 }
@@ -72,8 +76,10 @@ TEST_CASE("a model without texture coordinates: the indexed job is skipped, not 
 TEST_CASE("views: built-in names and a file") {
   const ScratchFolder folder;
   folder.file("square.obj", square_obj());
-  folder.file("near.json", R"({"schema":"etalon/view/1","eye":[0,0,4],"target":[0,0,0],"up":[0,1,0],"tan_half_fov_y":0.5,"near":0.5,"far":10})");
-  const CommandResult result = run_etalon({"verify", "square.obj", "--size", "32", "--jobs", "render", "--view", "near.json", "--view", "3/24"}, {.folder = folder.path()});
+  folder.file("near.json",
+              R"({"schema":"etalon/view/1","eye":[0,0,4],"target":[0,0,0],"up":[0,1,0],"tan_half_fov_y":0.5,"near":0.5,"far":10})");
+  const CommandResult result = run_etalon(
+      {"verify", "square.obj", "--size", "32", "--jobs", "render", "--view", "near.json", "--view", "3/24"}, {.folder = folder.path()});
   CAPTURE(result.err);
   const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
   REQUIRE(document["jobs"][0]["cases"].size() == 4);

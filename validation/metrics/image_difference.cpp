@@ -110,8 +110,10 @@ RowDifference compare_row(const Image& a, const Image& b, const Image* mask, int
       texel_differs = texel_differs || sample.bits_differ;
       add_sample(row.channels[static_cast<std::size_t>(c)], sample, integer, x, y);
       if (!sample.finite) continue;
-      if (sample.bin < small.size()) ++small[sample.bin];
-      else ++row.histogram[sample.bin];
+      if (sample.bin < small.size())
+        ++small[sample.bin];
+      else
+        ++row.histogram[sample.bin];
     }
     if (texel_differs) ++row.differing_texels;
   }

@@ -16,8 +16,8 @@ struct ChannelDifference {
   std::uint64_t sse = 0;
   /// half, float32: the sum in double, each row left to right, then the rows from 0 up. Integer formats: sse again.
   double squared_error = 0;
-  double max_abs = 0;         ///< largest |a − b|
-  int max_x = -1, max_y = -1; ///< first texel in row order that reaches it; −1 where all are equal
+  double max_abs = 0;            ///< largest |a − b|
+  int max_x = -1, max_y = -1;    ///< first texel in row order that reaches it; −1 where all are equal
   std::uint64_t differing = 0;   ///< samples whose stored bits differ
   std::uint64_t non_finite = 0;  ///< samples whose bits differ and of which one is inf or NaN: in no sum and no maximum
 };
@@ -38,7 +38,7 @@ struct ImageDifference {
   std::uint64_t differing_texels = 0;  ///< of those, how many have any bit different
   bool identical = true;               ///< differing_texels == 0
   std::vector<ChannelDifference> channels;
-  ChannelDifference total;             ///< over all channels; sums added in channel order
+  ChannelDifference total;  ///< over all channels; sums added in channel order
   /// Over all channels, ascending, bins that are empty left out. unorm8, srgb8, unorm16: one bin a value of |a − b|. half, float32: distance in
   /// units in the last place (representable numbers from one to the other, −0 = +0), bins 0, 1, 2..3, 4..7, …; non-finite samples are left out.
   /// uint32 (ids, whose difference means nothing): bins 0 (equal) and 1 (different), and squared_error and max_abs count in the same way.

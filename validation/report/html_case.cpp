@@ -21,57 +21,75 @@ std::string content_title(const std::string& content) {
 }
 
 std::string picture(const std::string& css_class, const Image& image, const std::string& alt) {
-  return fmt::format("<img class=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", css_class, image.width(), image.height(), escaped(alt), png_data_uri(image));
+  return fmt::format("<img class=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", css_class, image.width(), image.height(),
+                     escaped(alt), png_data_uri(image));
 }
 
 std::string comparison(const CaseResult& item, const TargetResult& target) {
   const std::string subject = fmt::format("{} of {}", content_title(target.content), item.name());
   if (!target.difference) {
-    return "<figure class=\"main\"><div class=\"frame\">" + picture("cpu", target.cpu_picture, subject + ", drawn by the exact rasterizer") +
-           "<span class=\"label left\">CPU, exact</span></div><figcaption><span>There is no OpenGL picture to compare with.</span></figcaption></figure>";
+    return "<figure class=\"main\"><div class=\"frame\">" +
+           picture("cpu", target.cpu_picture, subject + ", drawn by the exact rasterizer") +
+           "<span class=\"label left\">CPU, exact</span></div><figcaption><span>There is no OpenGL picture to compare "
+           "with.</span></figcaption></figure>";
   }
   if (target.gl_picture.empty()) {
-    return "<figure class=\"main\"><div class=\"frame\">" + picture("cpu", target.cpu_picture, subject + ", the same bytes from both renderers") +
-           "<span class=\"label left\">CPU, exact = OpenGL</span></div><figcaption><span>Both renderers gave the same bytes.</span></figcaption></figure>";
+    return "<figure class=\"main\"><div class=\"frame\">" +
+           picture("cpu", target.cpu_picture, subject + ", the same bytes from both renderers") +
+           "<span class=\"label left\">CPU, exact = OpenGL</span></div><figcaption><span>Both renderers gave the same "
+           "bytes.</span></figcaption></figure>";
   }
-  return "<figure class=\"main\"><div class=\"frame slider\">" + picture("cpu", target.cpu_picture, subject + ", drawn by the exact rasterizer") + "<div class=\"over\">" +
+  return "<figure class=\"main\"><div class=\"frame slider\">" +
+         picture("cpu", target.cpu_picture, subject + ", drawn by the exact rasterizer") + "<div class=\"over\">" +
          picture("gl", target.gl_picture, subject + ", drawn by OpenGL") +
          "</div><span class=\"label left\">CPU, exact</span><span class=\"label right\">OpenGL</span>"
-         "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.5\" value=\"50\" aria-label=\"Divider between the exact rasterizer, left, and OpenGL, right\">"
-         "<span class=\"handle\"></span></div><figcaption><span>Drag, or use the arrow keys. Point at a texel to see its neighbourhood.</span></figcaption></figure>";
+         "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.5\" value=\"50\" aria-label=\"Divider between the exact rasterizer, left, "
+         "and OpenGL, right\">"
+         "<span class=\"handle\"></span></div><figcaption><span>Drag, or use the arrow keys. Point at a texel to see its "
+         "neighbourhood.</span></figcaption></figure>";
 }
 
 std::string class_figure(const CaseResult& item) {
   if (item.class_picture.empty()) return "";
   std::string legend;
-  const auto add = [&](const std::string& name, std::uint64_t count) { legend += fmt::format("<span>{} {}</span>", class_chip(name), grouped(count)); };
+  const auto add = [&](const std::string& name, std::uint64_t count) {
+    legend += fmt::format("<span>{} {}</span>", class_chip(name), grouped(count));
+  };
   add("identical", item.tally.identical);
   add("rounding", item.tally.rounding);
   add("tie", item.tally.tie);
   add("unbounded", item.tally.unbounded);
   add("unexplained", item.tally.unexplained);
-  return "<figure class=\"class-figure\"><div class=\"frame\">" + picture("classes", item.class_picture, "Class of every texel; those that are not identical are marked, enlarged") +
+  return "<figure class=\"class-figure\"><div class=\"frame\">" +
+         picture("classes", item.class_picture, "Class of every texel; those that are not identical are marked, enlarged") +
          "</div><figcaption>" + legend + "</figcaption></figure>";
 }
 
 std::string error_figure(const TargetResult& target) {
   if (target.error_picture.empty()) return "";
-  return "<figure class=\"error-figure\"><div class=\"frame\">" + picture("errors", target.error_picture, "Heat map of the differences, enlarged") +
+  return "<figure class=\"error-figure\"><div class=\"frame\">" +
+         picture("errors", target.error_picture, "Heat map of the differences, enlarged") +
          "</div><figcaption><span>Size of each difference, dark to bright by powers of two.</span></figcaption></figure>";
 }
 
 bool is_float(ChannelType type) { return type == ChannelType::half || type == ChannelType::float32; }
 
-std::string fact(const std::string& name, const std::string& value) { return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value); }
+std::string fact(const std::string& name, const std::string& value) {
+  return fmt::format("<div><dt>{}</dt><dd>{}</dd></div>", name, value);
+}
 
 std::string facts(const TargetResult& target) {
   const ImageDifference& d = *target.difference;
-  std::string list = fact("format", escaped(target.format)) + fact("texels that differ", fmt::format("{} <span class=\"soft\">({})</span>", grouped(d.differing_texels), share(d.differing_texels, d.texels)));
+  std::string list = fact("format", escaped(target.format)) +
+                     fact("texels that differ", fmt::format("{} <span class=\"soft\">({})</span>", grouped(d.differing_texels),
+                                                            share(d.differing_texels, d.texels)));
   if (d.format.type == ChannelType::uint32) return "<dl class=\"facts wide\">" + list + "</dl>";
   const std::optional<double> psnr = d.psnr_db();
   list += fact("PSNR", psnr ? fmt::format("{:.2f} dB", *psnr) : "∞ (identical)");
-  list += is_float(d.format.type) ? fact("squared error", fmt::format("{:.3g}", d.total.squared_error)) : fact("squared error", grouped(d.total.sse));
-  list += fact("largest difference", is_float(d.format.type) ? fmt::format("{:.3g}", d.total.max_abs) : fmt::format("{:.0f}", d.total.max_abs));
+  list += is_float(d.format.type) ? fact("squared error", fmt::format("{:.3g}", d.total.squared_error))
+                                  : fact("squared error", grouped(d.total.sse));
+  list +=
+      fact("largest difference", is_float(d.format.type) ? fmt::format("{:.3g}", d.total.max_abs) : fmt::format("{:.0f}", d.total.max_abs));
   list += fact("first at", d.total.max_x < 0 ? "–" : fmt::format("({}, {})", d.total.max_x, d.total.max_y));
   return "<dl class=\"facts wide\">" + list + "</dl>";
 }
@@ -115,36 +133,45 @@ std::string histogram(const TargetResult& target) {
   for (std::size_t i = 0; i < bins.size(); ++i) {
     const double height = 62 * (decibel(static_cast<double>(bins[i].count)) / 10 + 0.3) / highest;
     const double x = static_cast<double>(i) * step;
-    bars += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"2\"><title>{}: {} samples</title></rect>", x + 3, 82 - height, step - 6, height,
-                        bin_name(bins[i]), grouped(bins[i].count));
-    bars += fmt::format("<text x=\"{0:.1f}\" y=\"{1:.1f}\" text-anchor=\"middle\">{2}</text><text x=\"{0:.1f}\" y=\"97\" text-anchor=\"middle\">{3}</text>", x + step / 2, 77 - height,
-                        grouped(bins[i].count), bin_name(bins[i]));
+    bars += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"2\"><title>{}: {} samples</title></rect>",
+                        x + 3, 82 - height, step - 6, height, bin_name(bins[i]), grouped(bins[i].count));
+    bars += fmt::format(
+        "<text x=\"{0:.1f}\" y=\"{1:.1f}\" text-anchor=\"middle\">{2}</text><text x=\"{0:.1f}\" y=\"97\" text-anchor=\"middle\">{3}</text>",
+        x + step / 2, 77 - height, grouped(bins[i].count), bin_name(bins[i]));
   }
   const char* unit = is_float(difference.format.type) ? "units in the last place" : "stored units";
-  return fmt::format("<figure class=\"histogram wide\"><svg viewBox=\"0 0 1000 102\" role=\"img\" aria-label=\"Histogram of differences\"><line x1=\"0\" x2=\"1000\" y1=\"82.5\" y2=\"82.5\"/>{}</svg>"
-                     "<figcaption><span>Samples by size of their difference, in {}; logarithmic height.</span></figcaption></figure>",
-                     bars, unit);
+  return fmt::format(
+      "<figure class=\"histogram wide\"><svg viewBox=\"0 0 1000 102\" role=\"img\" aria-label=\"Histogram of differences\"><line x1=\"0\" "
+      "x2=\"1000\" y1=\"82.5\" y2=\"82.5\"/>{}</svg>"
+      "<figcaption><span>Samples by size of their difference, in {}; logarithmic height.</span></figcaption></figure>",
+      bars, unit);
 }
 
 std::string crop_figure(const Image& crop, const std::string& label) {
-  return fmt::format("<div class=\"crop\"><img width=\"85\" height=\"85\" alt=\"{0}, {1} by {1} texels\" src=\"{2}\"><span>{0}</span></div>", label, crop.width(), png_data_uri(crop));
+  return fmt::format(
+      "<div class=\"crop\"><img width=\"85\" height=\"85\" alt=\"{0}, {1} by {1} texels\" src=\"{2}\"><span>{0}</span></div>", label,
+      crop.width(), png_data_uri(crop));
 }
 
 std::string worst_texels(const CaseResult& item) {
   if (item.worst.empty()) return "";
   std::string cards;
   for (const WorstTexel& texel : item.worst) {
-    cards += "<div class=\"texel\"><div class=\"crops\">" + crop_figure(texel.cpu_crop, "CPU") + crop_figure(texel.gl_crop, "OpenGL") + "</div>";
-    cards += fmt::format("<div class=\"what\"><b class=\"mono\">({}, {})</b> &nbsp;{}<dl><dt>CPU</dt><dd>{}</dd><dt>GL</dt><dd>{}</dd></dl></div><p class=\"why\">{}</p></div>", texel.x,
-                         texel.y, class_chip(texel.texel_class), escaped(texel.cpu_value), escaped(texel.gl_value), escaped(texel.explanation));
+    cards +=
+        "<div class=\"texel\"><div class=\"crops\">" + crop_figure(texel.cpu_crop, "CPU") + crop_figure(texel.gl_crop, "OpenGL") + "</div>";
+    cards += fmt::format(
+        "<div class=\"what\"><b class=\"mono\">({}, {})</b> &nbsp;{}<dl><dt>CPU</dt><dd>{}</dd><dt>GL</dt><dd>{}</dd></dl></div><p "
+        "class=\"why\">{}</p></div>",
+        texel.x, texel.y, class_chip(texel.texel_class), escaped(texel.cpu_value), escaped(texel.gl_value), escaped(texel.explanation));
   }
   const char* lead = item.tally.unexplained > 0 ? "unexplained ones first" : "none of them unexplained";
-  return fmt::format("<details{}><summary>{} texels farthest from agreement, {}</summary><div class=\"worst\">{}</div></details>", item.tally.unexplained > 0 ? " open" : "",
-                     item.worst.size(), lead, cards);
+  return fmt::format("<details{}><summary>{} texels farthest from agreement, {}</summary><div class=\"worst\">{}</div></details>",
+                     item.tally.unexplained > 0 ? " open" : "", item.worst.size(), lead, cards);
 }
 
 std::string panel(const CaseResult& item, const TargetResult& target, const std::string& id) {
-  std::string html = fmt::format("<div role=\"tabpanel\" id=\"{0}\" aria-labelledby=\"{0}-tab\">", id) + comparison(item, target) + error_figure(target);
+  std::string html =
+      fmt::format("<div role=\"tabpanel\" id=\"{0}\" aria-labelledby=\"{0}-tab\">", id) + comparison(item, target) + error_figure(target);
   if (target.difference) html += facts(target) + histogram(target);
   return html + "</div>";
 }
@@ -166,15 +193,20 @@ std::string share(std::uint64_t part, std::uint64_t all) {
 
 std::string case_article(const CaseResult& item, const std::string& id) {
   int picture_side = 1;
-  for (const TargetResult& target : item.targets) picture_side = std::max({picture_side, target.cpu_picture.width(), target.cpu_picture.height()});
+  for (const TargetResult& target : item.targets)
+    picture_side = std::max({picture_side, target.cpu_picture.width(), target.cpu_picture.height()});
   const int step = (std::max(item.width, item.height) + picture_side - 1) / picture_side;
-  std::string html = fmt::format("<article class=\"card\" id=\"{0}\" aria-labelledby=\"{0}-title\" data-step=\"{8}\"><div class=\"card-head\"><div><h3 id=\"{0}-title\">{1}</h3><p class=\"soft\">{2}</p></div>"
-                                 "<p class=\"soft num\">{3} × {4} · {5} triangles · CPU {6:.2f} s · GL {7:.2f} s</p></div>",
-                                 id, escaped(item.name()), escaped(item.description), item.width, item.height, grouped(item.triangles), item.cpu_seconds, item.gl_seconds, step);
+  std::string html = fmt::format(
+      "<article class=\"card\" id=\"{0}\" aria-labelledby=\"{0}-title\" data-step=\"{8}\"><div class=\"card-head\"><div><h3 "
+      "id=\"{0}-title\">{1}</h3><p class=\"soft\">{2}</p></div>"
+      "<p class=\"soft num\">{3} × {4} · {5} triangles · CPU {6:.2f} s · GL {7:.2f} s</p></div>",
+      id, escaped(item.name()), escaped(item.description), item.width, item.height, grouped(item.triangles), item.cpu_seconds,
+      item.gl_seconds, step);
   if (!item.diagnosis.empty()) html += "<div class=\"callout\"><b>Diagnosis.</b> " + escaped(item.diagnosis) + "</div>";
   html += fmt::format("<div class=\"tabs\" role=\"tablist\" aria-label=\"Targets of {}\">", escaped(item.name()));
   for (std::size_t i = 0; i < item.targets.size(); ++i) {
-    html += fmt::format("<button role=\"tab\" type=\"button\" id=\"{0}-{1}-tab\" aria-controls=\"{0}-{1}\">{2}</button>", id, i, content_title(item.targets[i].content));
+    html += fmt::format("<button role=\"tab\" type=\"button\" id=\"{0}-{1}-tab\" aria-controls=\"{0}-{1}\">{2}</button>", id, i,
+                        content_title(item.targets[i].content));
   }
   html += "</div><div class=\"views\">";
   for (std::size_t i = 0; i < item.targets.size(); ++i) html += panel(item, item.targets[i], fmt::format("{}-{}", id, i));

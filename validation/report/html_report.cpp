@@ -25,10 +25,12 @@ struct Banner {
 
 std::string agreement(const VerifyResult& result) {
   const ClassTally total = result.total();
-  std::string text = fmt::format("{} texels were drawn by the exact rasterizer and by OpenGL. {} are the same bytes", grouped(total.texels), share(total.identical, total.texels));
+  std::string text = fmt::format("{} texels were drawn by the exact rasterizer and by OpenGL. {} are the same bytes", grouped(total.texels),
+                                 share(total.identical, total.texels));
   if (total.rounding > 0) text += fmt::format("; {} differ by a legal rounding", grouped(total.rounding));
   if (total.tie > 0) text += fmt::format("; {} fell the other way of a tie, proven by redrawing", grouped(total.tie));
-  if (total.unbounded > 0) text += fmt::format("; {} lie where the device's own arithmetic gives no useful bound", grouped(total.unbounded));
+  if (total.unbounded > 0)
+    text += fmt::format("; {} lie where the device's own arithmetic gives no useful bound", grouped(total.unbounded));
   text += ".";
   if (result.bounds_measured) text += " The device's bounds are not derived for it: this is agreement, not proof.";
   return text;
@@ -39,16 +41,21 @@ Banner banner(const VerifyResult& result) {
   switch (verdict(result)) {
     case Verdict::agreed: return {"=", total.unbounded == 0 ? "Every texel is explained." : "No texel is unexplained.", agreement(result)};
     case Verdict::not_compared:
-      return {"–", "Nothing was compared.", result.gl_unavailable.empty() ? "No job could be done on this input." : "OpenGL is not available: " + escaped(result.gl_unavailable) + ". The pictures of the exact side are below."};
+      return {"–", "Nothing was compared.",
+              result.gl_unavailable.empty()
+                  ? "No job could be done on this input."
+                  : "OpenGL is not available: " + escaped(result.gl_unavailable) + ". The pictures of the exact side are below."};
     case Verdict::failed:
       return {"≠", fmt::format("{} texels are unexplained.", grouped(total.unexplained)),
-              fmt::format("Of {} texels compared; one of the two renderers is wrong there. The diagnosis and the texels are below.", grouped(total.texels))};
+              fmt::format("Of {} texels compared; one of the two renderers is wrong there. The diagnosis and the texels are below.",
+                          grouped(total.texels))};
   }
   return {};
 }
 
 std::string tally_cell(const std::string& css, const std::string& name, std::uint64_t count, std::uint64_t all) {
-  return fmt::format("<div><dt class=\"{}\"><i class=\"swatch\"></i>{}</dt><dd>{}<small>{}</small></dd></div>", css, name, grouped(count), all == 0 ? "–" : share(count, all));
+  return fmt::format("<div><dt class=\"{}\"><i class=\"swatch\"></i>{}</dt><dd>{}<small>{}</small></dd></div>", css, name, grouped(count),
+                     all == 0 ? "–" : share(count, all));
 }
 
 std::string class_bar(const ClassTally& t) {
@@ -56,7 +63,9 @@ std::string class_bar(const ClassTally& t) {
       {{"identical", t.identical}, {"rounding", t.rounding}, {"tie", t.tie}, {"unbounded", t.unbounded}, {"unexplained", t.unexplained}}};
   std::string bar = "<div class=\"bar\" aria-hidden=\"true\">";
   for (const auto& [css, count] : parts) {
-    if (count > 0) bar += fmt::format("<i class=\"{}\" style=\"flex:{:.6f} 0 auto\"></i>", css, static_cast<double>(count) / static_cast<double>(t.texels));
+    if (count > 0)
+      bar +=
+          fmt::format("<i class=\"{}\" style=\"flex:{:.6f} 0 auto\"></i>", css, static_cast<double>(count) / static_cast<double>(t.texels));
   }
   return bar + "</div>";
 }
@@ -66,7 +75,8 @@ std::string hero(const VerifyResult& result) {
   for (std::size_t j = 0; j < result.jobs.size(); ++j) {
     if (result.jobs[j].cases.empty()) continue;
     const CaseResult& item = result.jobs[j].cases.front();
-    return fmt::format("<figure class=\"hero\" data-from=\"case-{}-0\" hidden><a class=\"soft\" href=\"#case-{}-0\">{}</a></figure>", j, j, escaped(item.name()));
+    return fmt::format("<figure class=\"hero\" data-from=\"case-{}-0\" hidden><a class=\"soft\" href=\"#case-{}-0\">{}</a></figure>", j, j,
+                       escaped(item.name()));
   }
   return "";
 }
@@ -74,11 +84,15 @@ std::string hero(const VerifyResult& result) {
 std::string verdict_section(const VerifyResult& result) {
   const ClassTally t = result.total();
   const Banner words = banner(result);
-  std::string html = fmt::format("<section class=\"verdict {}\" aria-label=\"Verdict\"><div class=\"words\"><div class=\"verdict-head\"><div class=\"seal\" aria-hidden=\"true\">{}</div><div><strong>{}</strong><p>{}</p></div></div>",
-                                 to_string(verdict(result)), words.seal, escaped(words.headline), words.sentence);
+  std::string html = fmt::format(
+      "<section class=\"verdict {}\" aria-label=\"Verdict\"><div class=\"words\"><div class=\"verdict-head\"><div class=\"seal\" "
+      "aria-hidden=\"true\">{}</div><div><strong>{}</strong><p>{}</p></div></div>",
+      to_string(verdict(result)), words.seal, escaped(words.headline), words.sentence);
   if (t.texels > 0) {
-    html += class_bar(t) + "<dl class=\"tally\">" + tally_cell("identical", "identical", t.identical, t.texels) + tally_cell("rounding", "rounding", t.rounding, t.texels) +
-            tally_cell("tie", "tie", t.tie, t.texels) + tally_cell("unbounded", "unbounded", t.unbounded, t.texels) + tally_cell("unexplained", "unexplained", t.unexplained, t.texels) + "</dl>";
+    html += class_bar(t) + "<dl class=\"tally\">" + tally_cell("identical", "identical", t.identical, t.texels) +
+            tally_cell("rounding", "rounding", t.rounding, t.texels) + tally_cell("tie", "tie", t.tie, t.texels) +
+            tally_cell("unbounded", "unbounded", t.unbounded, t.texels) +
+            tally_cell("unexplained", "unexplained", t.unexplained, t.texels) + "</dl>";
   }
   html += fmt::format("<p class=\"sides\"><span>exact side</span> {}<br><span>device</span> {}</p></div>", escaped(result.cpu_name),
                       escaped(result.gl_name.empty() ? "none" : result.gl_name));
@@ -91,22 +105,29 @@ std::string number_cell(std::uint64_t count, bool alarm = false) {
 }
 
 std::string tally_cells(const ClassTally& t) {
-  return number_cell(t.texels) + number_cell(t.identical) + number_cell(t.rounding) + number_cell(t.tie) + number_cell(t.unbounded) + number_cell(t.unexplained, true);
+  return number_cell(t.texels) + number_cell(t.identical) + number_cell(t.rounding) + number_cell(t.tie) + number_cell(t.unbounded) +
+         number_cell(t.unexplained, true);
 }
 
 std::string class_table(const VerifyResult& result) {
-  std::string html = "<div class=\"table\"><table><caption class=\"visually-hidden\">Texels by class</caption><thead><tr><th scope=\"col\">job</th><th scope=\"col\">scene</th>"
-                     "<th class=\"n\" scope=\"col\">texels</th>";
-  for (const char* name : {"identical", "rounding", "tie", "unbounded", "unexplained"}) html += fmt::format("<th class=\"n\" scope=\"col\">{}</th>", class_chip(name));
+  std::string html =
+      "<div class=\"table\"><table><caption class=\"visually-hidden\">Texels by class</caption><thead><tr><th scope=\"col\">job</th><th "
+      "scope=\"col\">scene</th>"
+      "<th class=\"n\" scope=\"col\">texels</th>";
+  for (const char* name : {"identical", "rounding", "tie", "unbounded", "unexplained"})
+    html += fmt::format("<th class=\"n\" scope=\"col\">{}</th>", class_chip(name));
   html += "</tr></thead><tbody>";
   for (std::size_t j = 0; j < result.jobs.size(); ++j) {
     const JobResult& job = result.jobs[j];
-    if (!job.skipped.empty()) html += fmt::format("<tr><td>{}</td><td class=\"skip\" colspan=\"7\">skipped: {}</td></tr>", escaped(job.job), escaped(job.skipped));
+    if (!job.skipped.empty())
+      html += fmt::format("<tr><td>{}</td><td class=\"skip\" colspan=\"7\">skipped: {}</td></tr>", escaped(job.job), escaped(job.skipped));
     for (std::size_t i = 0; i < job.cases.size(); ++i) {
-      html += fmt::format("<tr><td>{}</td><td><a href=\"#case-{}-{}\">{}</a></td>{}</tr>", i == 0 ? escaped(job.job) : "", j, i, escaped(job.cases[i].name()), tally_cells(job.cases[i].tally));
+      html += fmt::format("<tr><td>{}</td><td><a href=\"#case-{}-{}\">{}</a></td>{}</tr>", i == 0 ? escaped(job.job) : "", j, i,
+                          escaped(job.cases[i].name()), tally_cells(job.cases[i].tally));
     }
   }
-  return html + fmt::format("</tbody><tfoot><tr class=\"total\"><th scope=\"row\" colspan=\"2\">total</th>{}</tr></tfoot></table></div>", tally_cells(result.total()));
+  return html + fmt::format("</tbody><tfoot><tr class=\"total\"><th scope=\"row\" colspan=\"2\">total</th>{}</tr></tfoot></table></div>",
+                            tally_cells(result.total()));
 }
 
 std::string job_sections(const VerifyResult& result) {
@@ -114,8 +135,9 @@ std::string job_sections(const VerifyResult& result) {
   for (std::size_t j = 0; j < result.jobs.size(); ++j) {
     const JobResult& job = result.jobs[j];
     if (job.cases.empty()) continue;
-    const char* lead = job.job == "indexed" ? "The texture is read through an indexing map: a first look-up gives the coordinate of a second one."
-                                            : "The textured model, in perspective, with depth test.";
+    const char* lead = job.job == "indexed"
+                           ? "The texture is read through an indexing map: a first look-up gives the coordinate of a second one."
+                           : "The textured model, in perspective, with depth test.";
     html += fmt::format("<h2 id=\"job-{0}\">{0}</h2><p class=\"lede\">{1}</p>", escaped(job.job), lead);
     for (std::size_t i = 0; i < job.cases.size(); ++i) html += case_article(job.cases[i], fmt::format("case-{}-{}", j, i));
   }
@@ -131,10 +153,13 @@ const char* kMeanings = R"(<h2>What the classes mean</h2><dl class="meaning">
 </dl>)";
 
 std::string inputs_section(const VerifyResult& result) {
-  std::string html = "<h2>Inputs</h2><div class=\"table\"><table><thead><tr><th scope=\"col\">role</th><th scope=\"col\">name</th><th scope=\"col\">sha256</th></tr></thead><tbody>";
+  std::string html =
+      "<h2>Inputs</h2><div class=\"table\"><table><thead><tr><th scope=\"col\">role</th><th scope=\"col\">name</th><th "
+      "scope=\"col\">sha256</th></tr></thead><tbody>";
   for (const VerifyInput& input : result.inputs) {
-    html += fmt::format("<tr><td>{}</td><td>{}{}</td><td class=\"sha\">{}</td></tr>", escaped(input.role), escaped(input.name),
-                        input.attribution.empty() ? "" : "<br><span class=\"soft\">" + escaped(input.attribution) + "</span>", input.sha256);
+    html +=
+        fmt::format("<tr><td>{}</td><td>{}{}</td><td class=\"sha\">{}</td></tr>", escaped(input.role), escaped(input.name),
+                    input.attribution.empty() ? "" : "<br><span class=\"soft\">" + escaped(input.attribution) + "</span>", input.sha256);
   }
   html += "</tbody></table></div>";
   if (result.notes.empty()) return html;
@@ -146,15 +171,18 @@ std::string inputs_section(const VerifyResult& result) {
 std::string row(const std::string& name, const std::string& value) { return fmt::format("<dt>{}</dt><dd>{}</dd>", name, escaped(value)); }
 
 std::string run_section(const VerifyResult& result, const RunInfo& run) {
-  return "<h2>This run</h2><dl class=\"env\">" + row("etalon", fmt::format("{}, contract {}", run.version, raster::kRasterContractVersion)) + row("exact side", result.cpu_name) +
-         row("device", result.gl_name.empty() ? "none: " + result.gl_unavailable : result.gl_name) + row("bounds", result.bounds_origin) + row("threads", std::to_string(run.threads)) +
-         row("time", fmt::format("{:.1f} s", run.seconds)) + row("memory", fmt::format("{:.0f} MiB at most", static_cast<double>(run.peak_bytes) / 1048576)) + "</dl>";
+  return "<h2>This run</h2><dl class=\"env\">" +
+         row("etalon", fmt::format("{}, contract {}", run.version, raster::kRasterContractVersion)) + row("exact side", result.cpu_name) +
+         row("device", result.gl_name.empty() ? "none: " + result.gl_unavailable : result.gl_name) + row("bounds", result.bounds_origin) +
+         row("threads", std::to_string(run.threads)) + row("time", fmt::format("{:.1f} s", run.seconds)) +
+         row("memory", fmt::format("{:.0f} MiB at most", static_cast<double>(run.peak_bytes) / 1048576)) + "</dl>";
 }
 
 std::string attributions(const VerifyResult& result) {
   std::string html;
   for (const VerifyInput& input : result.inputs) {
-    if (!input.attribution.empty() && html.find(escaped(input.attribution)) == std::string::npos) html += "<p>" + escaped(input.name) + ": " + escaped(input.attribution) + ".</p>";
+    if (!input.attribution.empty() && html.find(escaped(input.attribution)) == std::string::npos)
+      html += "<p>" + escaped(input.name) + ": " + escaped(input.attribution) + ".</p>";
   }
   return html;
 }
@@ -164,8 +192,10 @@ std::string json_for_script(const std::string& text) {
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {
-    if (c == '<') safe += "\\u003c";
-    else safe += c;
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
   }
   return safe;
 }
@@ -173,14 +203,22 @@ std::string json_for_script(const std::string& text) {
 }  // namespace
 
 std::string verify_page(const VerifyResult& result, const RunInfo& run) {
-  std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">";
+  std::string html =
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, "
+      "initial-scale=1\">";
   html += "<title>etalon: " + escaped(banner(result).headline) + "</title><style>" + kPageCss + "</style></head><body>";
-  html += "<header class=\"masthead\"><div class=\"graduation\" style=\"max-width:none;padding:0\" aria-hidden=\"true\"></div><div><h1>étalon</h1><p class=\"lede\">Two renderers, one scene, every texel accounted for.</p>"
-          "<button id=\"theme\" type=\"button\" hidden>light / dark</button></div></header><main>";
-  html += verdict_section(result) + class_table(result) + job_sections(result) + kMeanings + inputs_section(result) + run_section(result, run);
-  html += "</main><footer><div class=\"graduation\" style=\"max-width:none;padding:0\" aria-hidden=\"true\"></div><div>" + attributions(result) +
-          "<p>The same figures for programs: verify.json and classes.csv beside this page. Row 0 of an image is its lowest.</p></div></footer>";
-  html += "<script type=\"application/json\" id=\"etalon-verify\">" + json_for_script(to_text(verify_document(result, run))) + "</script><script>" + kPageJs + "</script></body></html>\n";
+  html +=
+      "<header class=\"masthead\"><div class=\"graduation\" style=\"max-width:none;padding:0\" "
+      "aria-hidden=\"true\"></div><div><h1>étalon</h1><p class=\"lede\">Two renderers, one scene, every texel accounted for.</p>"
+      "<button id=\"theme\" type=\"button\" hidden>light / dark</button></div></header><main>";
+  html +=
+      verdict_section(result) + class_table(result) + job_sections(result) + kMeanings + inputs_section(result) + run_section(result, run);
+  html +=
+      "</main><footer><div class=\"graduation\" style=\"max-width:none;padding:0\" aria-hidden=\"true\"></div><div>" +
+      attributions(result) +
+      "<p>The same figures for programs: verify.json and classes.csv beside this page. Row 0 of an image is its lowest.</p></div></footer>";
+  html += "<script type=\"application/json\" id=\"etalon-verify\">" + json_for_script(to_text(verify_document(result, run))) +
+          "</script><script>" + kPageJs + "</script></body></html>\n";
   return html;
 }
 
@@ -191,7 +229,9 @@ std::filesystem::path write_verify_report(const std::filesystem::path& folder, c
     throw WriteError(fmt::format("{}: {}", folder.string(), error ? error.message() : "is not a folder"));
   }
   const std::filesystem::path page = folder / "index.html";
-  io::write_files({{folder / "verify.json", to_text(verify_document(result, run))}, {folder / "classes.csv", verify_csv(result)}, {page, verify_page(result, run)}});
+  io::write_files({{folder / "verify.json", to_text(verify_document(result, run))},
+                   {folder / "classes.csv", verify_csv(result)},
+                   {page, verify_page(result, run)}});
   return page;
 }
 
@@ -199,7 +239,8 @@ std::string file_url(const std::filesystem::path& path) {
   std::string url = "file://";
   for (const char c : std::filesystem::absolute(path).lexically_normal().string()) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z') || std::string_view("-._~/!$&'()*+,;=:@").find(c) != std::string_view::npos;
+    const bool plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') || (byte >= 'a' && byte <= 'z') ||
+                       std::string_view("-._~/!$&'()*+,;=:@").find(c) != std::string_view::npos;
     url += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
   }
   return url;

@@ -17,8 +17,10 @@ std::string escaped(const std::string& text) {
       case '>': result += "&gt;"; break;
       case '"': result += "&quot;"; break;
       default:
-        if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') result += "\xEF\xBF\xBD";
-        else result += c;
+        if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t')
+          result += "\xEF\xBF\xBD";
+        else
+          result += c;
     }
   }
   return result;

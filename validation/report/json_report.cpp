@@ -25,8 +25,10 @@ Json optional_number(const std::optional<double>& value) { return value ? Json(*
 Json to_json(const ImageDifference& difference) {
   Json object = {{"identical", difference.identical}, {"differing_texels", difference.differing_texels}};
   const bool integer = difference.format.type != ChannelType::half && difference.format.type != ChannelType::float32;
-  if (integer) object["sse"] = difference.total.sse;
-  else object["squared_error"] = difference.total.squared_error;
+  if (integer)
+    object["sse"] = difference.total.sse;
+  else
+    object["squared_error"] = difference.total.squared_error;
   object["psnr_db"] = optional_number(difference.psnr_db());
   object["max_abs"] = difference.total.max_abs;
   object["max_at"] = difference.total.max_x < 0 ? Json(nullptr) : Json({difference.total.max_x, difference.total.max_y});
@@ -37,7 +39,8 @@ Json to_json(const ImageDifference& difference) {
 }
 
 Json to_json(const WorstTexel& texel) {
-  return {{"x", texel.x}, {"y", texel.y}, {"class", texel.texel_class}, {"cpu", texel.cpu_value}, {"gl", texel.gl_value}, {"explanation", texel.explanation}};
+  return {{"x", texel.x},           {"y", texel.y},         {"class", texel.texel_class},
+          {"cpu", texel.cpu_value}, {"gl", texel.gl_value}, {"explanation", texel.explanation}};
 }
 
 Json to_json(const TargetResult& target) {
@@ -49,7 +52,8 @@ Json to_json(const TargetResult& target) {
 }
 
 Json to_json(const CaseResult& item) {
-  Json object = {{"model", item.model}, {"view", item.view}, {"sampling", item.sampling}, {"width", item.width}, {"height", item.height}, {"triangles", item.triangles}};
+  Json object = {{"model", item.model}, {"view", item.view},     {"sampling", item.sampling},
+                 {"width", item.width}, {"height", item.height}, {"triangles", item.triangles}};
   object.update(to_json(item.tally));
   object["diagnosis"] = item.diagnosis;
   Json targets = Json::array();
@@ -84,12 +88,13 @@ std::string csv_field(const std::string& text) {
 std::string csv_line(const std::vector<std::string>& names, const ClassTally& tally) {
   std::string line;
   for (const std::string& name : names) line += csv_field(name) + ",";
-  return line + fmt::format("{},{},{},{},{},{}\r\n", tally.texels, tally.identical, tally.rounding, tally.tie, tally.unbounded, tally.unexplained);
+  return line +
+         fmt::format("{},{},{},{},{},{}\r\n", tally.texels, tally.identical, tally.rounding, tally.tie, tally.unbounded, tally.unexplained);
 }
 
 std::string table_line(const std::string& job, const std::string& scene, std::size_t scene_width, const ClassTally& t) {
-  return fmt::format("{:<9}{:<{}}{:>13}{:>13}{:>11}{:>10}{:>11}{:>13}", job, scene, scene_width, grouped(t.texels), grouped(t.identical), grouped(t.rounding), grouped(t.tie),
-                     grouped(t.unbounded), grouped(t.unexplained));
+  return fmt::format("{:<9}{:<{}}{:>13}{:>13}{:>11}{:>10}{:>11}{:>13}", job, scene, scene_width, grouped(t.texels), grouped(t.identical),
+                     grouped(t.rounding), grouped(t.tie), grouped(t.unbounded), grouped(t.unexplained));
 }
 
 }  // namespace
@@ -144,7 +149,8 @@ std::vector<std::string> verify_table(const VerifyResult& result) {
     for (const CaseResult& item : job.cases) scene_width = std::max(scene_width, item.name().size() + 1);
   }
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("{:<9}{:<{}}{:>13}{:>13}{:>11}{:>10}{:>11}{:>13}", "job", "scene", scene_width, "texels", "identical", "rounding", "tie", "unbounded", "unexplained"));
+  lines.push_back(fmt::format("{:<9}{:<{}}{:>13}{:>13}{:>11}{:>10}{:>11}{:>13}", "job", "scene", scene_width, "texels", "identical",
+                              "rounding", "tie", "unbounded", "unexplained"));
   for (const JobResult& job : result.jobs) {
     if (!job.skipped.empty()) lines.push_back(fmt::format("{:<9}skipped: {}", job.job, job.skipped));
     for (const CaseResult& item : job.cases) lines.push_back(table_line(job.job, item.name(), scene_width, item.tally));

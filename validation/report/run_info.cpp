@@ -22,8 +22,8 @@ RunInfo current_run(std::chrono::steady_clock::time_point start) {
 }
 
 nlohmann::ordered_json to_json(const RunInfo& run) {
-  return {{"version", run.version}, {"threads", run.threads}, {"seconds", run.seconds},
-          {"peak_bytes", run.peak_bytes}, {"paths", run.paths}, {"device", run.device}};
+  return {{"version", run.version},       {"threads", run.threads}, {"seconds", run.seconds},
+          {"peak_bytes", run.peak_bytes}, {"paths", run.paths},     {"device", run.device}};
 }
 
 }  // namespace etalon::validation

@@ -11,7 +11,7 @@
 namespace etalon::validation {
 
 struct RunInfo {
-  std::string version;             ///< of etalon
+  std::string version;  ///< of etalon
   int threads = 0;
   double seconds = 0;              ///< wall clock
   std::uint64_t peak_bytes = 0;    ///< largest resident size of the process so far; 0 where the system does not say

@@ -47,7 +47,8 @@ std::string draw_list_sha256(const DrawList& list) {
   for (const RasterVertex& vertex : list.vertices) {
     hash.add(vertex.x);
     hash.add(vertex.y);
-    for (const float value : {vertex.z, vertex.w, vertex.uv.x, vertex.uv.y, vertex.color.x, vertex.color.y, vertex.color.z, vertex.color.w}) hash.add(value);
+    for (const float value : {vertex.z, vertex.w, vertex.uv.x, vertex.uv.y, vertex.color.x, vertex.color.y, vertex.color.z, vertex.color.w})
+      hash.add(value);
   }
   for (const auto& triangle : list.triangles) {
     for (const std::uint32_t index : triangle) hash.add(index);

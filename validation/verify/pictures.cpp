@@ -83,9 +83,13 @@ std::uint8_t error_level(const Image& a, const Image& b, int x, int y) {
     std::uint64_t d = 0;
     switch (a.format().type) {
       case ChannelType::unorm8:
-      case ChannelType::srgb8: d = static_cast<std::uint64_t>(std::abs(a.channels<std::uint8_t>(x, y)[c] - b.channels<std::uint8_t>(x, y)[c])); break;
+      case ChannelType::srgb8:
+        d = static_cast<std::uint64_t>(std::abs(a.channels<std::uint8_t>(x, y)[c] - b.channels<std::uint8_t>(x, y)[c]));
+        break;
       case ChannelType::unorm16:
-      case ChannelType::half: d = static_cast<std::uint64_t>(std::abs(a.channels<std::uint16_t>(x, y)[c] - b.channels<std::uint16_t>(x, y)[c])); break;
+      case ChannelType::half:
+        d = static_cast<std::uint64_t>(std::abs(a.channels<std::uint16_t>(x, y)[c] - b.channels<std::uint16_t>(x, y)[c]));
+        break;
       case ChannelType::float32: {
         const auto p = std::int64_t{std::bit_cast<std::int32_t>(a.channels<float>(x, y)[c])};
         const auto q = std::int64_t{std::bit_cast<std::int32_t>(b.channels<float>(x, y)[c])};
@@ -215,8 +219,10 @@ Image crop(const Image& picture, int x, int y, int size) {
       const int px = x + u - size / 2;
       const int py = y + v - size / 2;
       const bool inside = px >= 0 && py >= 0 && px < picture.width() && py < picture.height();
-      if (inside) std::memcpy(result.texel(u, v), picture.texel(px, py), 3);
-      else put(result, u, v, {128, 128, 128});
+      if (inside)
+        std::memcpy(result.texel(u, v), picture.texel(px, py), 3);
+      else
+        put(result, u, v, {128, 128, 128});
     }
   }
   return result;

@@ -43,7 +43,8 @@ std::vector<Plan> plan_render(const VerifyModel& model, const VerifyOptions& opt
 }
 
 // One map per material, of its texture's size: the identity must name every texel.
-std::vector<Material> through_map(const std::vector<Material>& materials, std::shared_ptr<const Image> (*make_map)(int, int), Filter map_filter) {
+std::vector<Material> through_map(const std::vector<Material>& materials, std::shared_ptr<const Image> (*make_map)(int, int),
+                                  Filter map_filter) {
   std::vector<Material> mapped = materials;
   for (Material& material : mapped) {
     if (!material.texture) material.texture = checkerboard();
@@ -56,9 +57,11 @@ std::vector<Material> through_map(const std::vector<Material>& materials, std::s
 
 std::vector<Plan> plan_indexed(const VerifyModel& model, const VerifyOptions& options) {
   if (!model.mesh.has_uv || options.views.empty()) return {};
-  return {{&model, options.views.front(), "swirled float32 map", "Coordinates from an rg float32 map that swirls the texture, filtered linearly; then the texture by nearest lookup.",
+  return {{&model, options.views.front(), "swirled float32 map",
+           "Coordinates from an rg float32 map that swirls the texture, filtered linearly; then the texture by nearest lookup.",
            through_map(model.materials, swirled_map, Filter::linear)},
-          {&model, options.views.front(), "identity unorm16 map", "Coordinates from an rg unorm16 map that holds its own texel centres, by nearest lookup; then the texture likewise.",
+          {&model, options.views.front(), "identity unorm16 map",
+           "Coordinates from an rg unorm16 map that holds its own texel centres, by nearest lookup; then the texture likewise.",
            through_map(model.materials, identity_map, Filter::nearest)}};
 }
 
@@ -89,14 +92,16 @@ Frame frame_for(const VerifyOptions& options, const VerifyDevice& device) {
   return frame;
 }
 
-CaseResult run_case(const std::string& job, const Plan& plan, const Frame& frame, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options) {
+CaseResult run_case(const std::string& job, const Plan& plan, const Frame& frame, Renderer& exact, const VerifyDevice& device,
+                    const VerifyOptions& options) {
   CaseResult item;
   item.job = job;
   item.model = plan.model->name;
   item.view = plan.view.name;
   item.sampling = plan.sampling;
   item.description = plan.description;
-  const Camera camera = plan.view.camera ? *plan.view.camera : named_view(plan.view.name, bounding_box(plan.model->mesh), frame.width, frame.height);
+  const Camera camera =
+      plan.view.camera ? *plan.view.camera : named_view(plan.view.name, bounding_box(plan.model->mesh), frame.width, frame.height);
   const DrawList list = make_scene(plan.model->mesh, plan.materials, camera, frame);
   const auto scene_with_snap = [&](SnapRounding snap) {
     Frame other = frame;
@@ -143,7 +148,8 @@ VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact,
   for (const JobPlan& job : jobs) {
     JobResult job_result{job.job, job.skipped, {}};
     for (const Plan& plan : job.plans) {
-      if (options.on_progress) options.on_progress(fmt::format("{}: {}, {}, {}", job.job, plan.model->name, plan.view.name, plan.sampling), done, total);
+      if (options.on_progress)
+        options.on_progress(fmt::format("{}: {}, {}, {}", job.job, plan.model->name, plan.view.name, plan.sampling), done, total);
       job_result.cases.push_back(run_case(job.job, plan, frame, exact, device, options));
       ++done;
       if (options.on_case) options.on_case(job_result.cases.back());

@@ -18,15 +18,15 @@ namespace etalon::validation {
 
 /// A model ready to be drawn.
 struct VerifyModel {
-  std::string name;                  ///< of the scenes: "head", "spot_triangulated"
+  std::string name;  ///< of the scenes: "head", "spot_triangulated"
   Mesh mesh;
-  std::vector<Material> materials;   ///< of the job `render`; indexed by Mesh::face_materials, not empty
-  std::vector<VerifyInput> inputs;   ///< what it was read from
+  std::vector<Material> materials;  ///< of the job `render`; indexed by Mesh::face_materials, not empty
+  std::vector<VerifyInput> inputs;  ///< what it was read from
   std::vector<std::string> notes;
 };
 
 struct NamedView {
-  std::string name;                  ///< shown; looked up by named_view() where `camera` is not given
+  std::string name;  ///< shown; looked up by named_view() where `camera` is not given
   std::optional<Camera> camera;
 };
 
@@ -35,9 +35,9 @@ struct VerifyOptions {
   std::vector<NamedView> views{{"fit", {}}, {"front", {}}};  ///< the job `indexed` uses the first
   int width = 1024;
   int height = 1024;
-  RasterState state;                 ///< wanted; drawn is what the device supports of it
-  int picture_px = 1024;             ///< longest side of the pictures that are kept
-  int worst_count = 6;               ///< texels a scene that are shown with their surroundings
+  RasterState state;      ///< wanted; drawn is what the device supports of it
+  int picture_px = 1024;  ///< longest side of the pictures that are kept
+  int worst_count = 6;    ///< texels a scene that are shown with their surroundings
   /// Called before each step with its label, how many are done, and of how many; may be empty.
   std::function<void(const std::string& label, int done, int total)> on_progress;
   /// Called after each scene; may be empty.
@@ -46,9 +46,9 @@ struct VerifyOptions {
 
 /// What the scenes are compared with.
 struct VerifyDevice {
-  Renderer* renderer = nullptr;      ///< none: scenes are drawn by `exact` only and nothing is compared
+  Renderer* renderer = nullptr;  ///< none: scenes are drawn by `exact` only and nothing is compared
   DeviceModel model;
-  std::string unavailable;           ///< why there is none
+  std::string unavailable;  ///< why there is none
 };
 
 /// The jobs verify knows, in the order they are done.
@@ -57,6 +57,7 @@ struct VerifyDevice {
 /// Draws and compares. A job that an input cannot do is reported in JobResult::skipped, never an error; a job of several models is skipped
 /// only where none can do it. The result depends on models, options and device alone: same bytes for any number of threads.
 /// InputError: a view is degenerate, a model breaks the contract's ranges, a job is unknown.
-[[nodiscard]] VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options);
+[[nodiscard]] VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact, const VerifyDevice& device,
+                                      const VerifyOptions& options);
 
 }  // namespace etalon::validation

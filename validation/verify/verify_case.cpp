@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "validation/diagnosis.h"
 #include "validation/texel_diff.h"
 #include "validation/verify/pictures.h"
 
@@ -49,17 +50,30 @@ ClassTally tally_of(const ClassCounts& counts) {
   return tally;
 }
 
-std::string diagnosis_of(const DiffResult& diff) {
-  static const std::array<const char*, kCauseCount> kPatterns{
-      "cause not told apart", "coverage: one side draws where the other does not (fill rule, snap, viewport, or a missing triangle)",
-      "depth order: another triangle is in front, by more than the depth bound", "texel choice: another texel was fetched, by more than the coordinate bound (half-texel shift, wrap, flipped v)",
-      "value: the right texel, but no legal rounding of its value (wrong byte, filter, or storage rounding)"};
+// By the kind of decision that is broken: "coverage: 12 texels; value: 3 texels".
+std::string broken_decisions(const DiffResult& diff) {
   std::string text;
   for (std::size_t cause = 0; cause < kCauseCount; ++cause) {
     if (diff.unexplained_by[cause] == 0) continue;
-    text += fmt::format("{}{} texels: {}", text.empty() ? "" : "; ", diff.unexplained_by[cause], kPatterns[cause]);
+    const std::string name = cause == 0 ? "cause not told apart" : to_string(static_cast<Cause>(cause));
+    text += fmt::format("{}{}: {} texels", text.empty() ? "" : "; ", name, diff.unexplained_by[cause]);
   }
-  return text.empty() ? text : text + ".";
+  return text;
+}
+
+std::string diagnosis_of(const DiffResult& diff, const Pair& pair, const DrawList& list, const Frame& frame, const DeviceModel& model,
+                         const std::function<DrawList(SnapRounding)>& scene_with_snap) {
+  if (diff.agreed()) return "";
+  DiagnosisOptions asked;
+  asked.scene_with_snap = scene_with_snap;
+  const std::vector<Hypothesis> hypotheses = diagnose(list, frame, model, pair.cpu, pair.gl, diff, asked);
+  std::string text = broken_decisions(diff);
+  if (hypotheses.empty()) return text + ". No usual mistake explains them.";
+  const std::size_t shown = std::min<std::size_t>(hypotheses.size(), 3);
+  text += ". Looks like ";
+  for (std::size_t i = 0; i < shown; ++i)
+    text += fmt::format("{}{} (explains {:.1f} % of them)", i > 0 ? ", or " : "", hypotheses[i].name, 100 * hypotheses[i].explained_share);
+  return text + ".";
 }
 
 std::string short_name(TargetContent content) { return content == TargetContent::triangle_id ? "id" : to_string(content); }
@@ -120,12 +134,14 @@ std::vector<const TexelReport*> shown_reports(const std::vector<TexelReport>& wo
   return shown;
 }
 
-void classify(CaseResult& item, const Pair& pair, const DrawList& list, const Frame& frame, const VerifyDevice& device, const VerifyOptions& options, int reach) {
+void classify(CaseResult& item, const Pair& pair, const DrawList& list, const Frame& frame, const VerifyDevice& device,
+              const VerifyOptions& options, int reach, const std::function<DrawList(SnapRounding)>& scene_with_snap) {
   constexpr int kCandidates = 256;  // enough to find texels of each class among them
   const DiffResult diff = diff_images(list, frame, device.model, pair.cpu, pair.gl, {.worst_count = kCandidates, .keep_class_image = true});
   item.tally = tally_of(diff.counts);
-  item.diagnosis = diagnosis_of(diff);
-  for (const TexelReport* report : shown_reports(diff.worst, options.worst_count)) item.worst.push_back(worst_texel(*report, pair, frame.targets));
+  item.diagnosis = diagnosis_of(diff, pair, list, frame, device.model, scene_with_snap);
+  for (const TexelReport* report : shown_reports(diff.worst, options.worst_count))
+    item.worst.push_back(worst_texel(*report, pair, frame.targets));
   item.class_picture = reduced(class_picture(pair.cpu_picture.front(), diff.class_image, reach), options.picture_px);
 }
 
@@ -176,7 +192,8 @@ std::string texel_text(const Image& image, int x, int y) {
   return text;
 }
 
-void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options) {
+void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Renderer& exact, const VerifyDevice& device,
+                  const VerifyOptions& options, const std::function<DrawList(SnapRounding)>& scene_with_snap) {
   ETALON_CHECK(!frame.targets.empty(), "a scene without targets");
   item.width = frame.width;
   item.height = frame.height;
@@ -190,8 +207,9 @@ void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Re
   const int step = (longest + options.picture_px - 1) / options.picture_px;
   const int reach = std::max({step, longest / 340, 1});
   picture_targets(pair, frame);
-  if (device.renderer != nullptr) classify(item, pair, list, frame, device, options, reach);
-  for (std::size_t t = 0; t < frame.targets.size(); ++t) item.targets.push_back(measure_target(pair, t, frame.targets[t], options.picture_px, reach));
+  if (device.renderer != nullptr) classify(item, pair, list, frame, device, options, reach, scene_with_snap);
+  for (std::size_t t = 0; t < frame.targets.size(); ++t)
+    item.targets.push_back(measure_target(pair, t, frame.targets[t], options.picture_px, reach));
   item.compare_seconds = compare.seconds();
 }
 

@@ -7,8 +7,10 @@
 namespace etalon::validation {
 
 /// Fills the measurements, classes and pictures of `item`, whose names are set already. `frame.state` must be one the device draws with.
+/// `scene_with_snap` makes the list again with another rounding onto the grid, for the diagnosis of unexplained texels; may be empty.
 /// UnavailableError: the device cannot draw this frame.
-void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options);
+void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Renderer& exact, const VerifyDevice& device,
+                  const VerifyOptions& options, const std::function<DrawList(SnapRounding)>& scene_with_snap = {});
 
 /// The channels of texel (x, y) as stored: "120 44 31 255", "0.5123458", "-" for no triangle.
 [[nodiscard]] std::string texel_text(const Image& image, int x, int y);

@@ -36,12 +36,12 @@ struct VerifyInput {
 
 /// One of the texels that need explaining most, with its surroundings on both sides.
 struct WorstTexel {
-  int x = 0, y = 0;               ///< texel, row 0 at the bottom
-  std::string texel_class;        ///< "rounding", "tie", …
-  std::string cpu_value;          ///< stored channels, printed
+  int x = 0, y = 0;         ///< texel, row 0 at the bottom
+  std::string texel_class;  ///< "rounding", "tie", …
+  std::string cpu_value;    ///< stored channels, printed
   std::string gl_value;
-  std::string explanation;        ///< margin, bound and verdict in one sentence
-  Image cpu_crop, gl_crop;        ///< RGB unorm8, kCropSize squared, centred on the texel (outside the frame: mid grey)
+  std::string explanation;  ///< margin, bound and verdict in one sentence
+  Image cpu_crop, gl_crop;  ///< RGB unorm8, kCropSize squared, centred on the texel (outside the frame: mid grey)
 };
 inline constexpr int kCropSize = 17;
 
@@ -54,30 +54,30 @@ struct TargetResult {
   /// RGB unorm8 for people, row 0 at the bottom, at most VerifyOptions::picture_px on a side (then the frame is reduced by whole steps).
   /// gl_picture is empty where both are the same bytes, or there is no device.
   Image cpu_picture, gl_picture;
-  Image error_picture;                        ///< empty where nothing differs; brightness: log2 of the difference
+  Image error_picture;  ///< empty where nothing differs; brightness: log2 of the difference
 };
 
 /// One scene: a model seen from one view with one sampler.
 struct CaseResult {
-  std::string job;                  ///< "render", "indexed"
-  std::string model;                ///< "head"
-  std::string view;                 ///< "fit"
-  std::string sampling;             ///< "nearest", "linear"
-  std::string description;          ///< one sentence for the page
+  std::string job;          ///< "render", "indexed"
+  std::string model;        ///< "head"
+  std::string view;         ///< "fit"
+  std::string sampling;     ///< "nearest", "linear"
+  std::string description;  ///< one sentence for the page
   int width = 0, height = 0;
-  std::uint64_t triangles = 0;      ///< in the draw list, after clipping
+  std::uint64_t triangles = 0;  ///< in the draw list, after clipping
   double cpu_seconds = 0, gl_seconds = 0, compare_seconds = 0;
-  ClassTally tally;                 ///< all 0 where there is no device
-  std::string diagnosis;            ///< what pattern the unexplained texels show; empty where there are none
-  std::vector<WorstTexel> worst;    ///< worst first
-  Image class_picture;              ///< the CPU's colours in faint grey, marks of class_color() over them; empty where there is no device
+  ClassTally tally;               ///< all 0 where there is no device
+  std::string diagnosis;          ///< what pattern the unexplained texels show; empty where there are none
+  std::vector<WorstTexel> worst;  ///< worst first
+  Image class_picture;            ///< the CPU's colours in faint grey, marks of class_color() over them; empty where there is no device
   std::vector<TargetResult> targets;
   [[nodiscard]] std::string name() const { return model + ", " + view + ", " + sampling; }
 };
 
 struct JobResult {
   std::string job;
-  std::string skipped;              ///< why it was not done, and what to try; empty where it was
+  std::string skipped;  ///< why it was not done, and what to try; empty where it was
   std::vector<CaseResult> cases;
   [[nodiscard]] ClassTally tally() const;
 };
@@ -86,11 +86,11 @@ struct VerifyResult {
   std::vector<VerifyInput> inputs;
   std::vector<JobResult> jobs;
   std::string cpu_name;
-  std::string gl_name;              ///< empty where there is no device
-  std::string gl_unavailable;       ///< why; empty where there is one
-  std::string bounds_origin;        ///< "derived: …" or "measured: …"
-  bool bounds_measured = false;     ///< then agreement is not called proven
-  std::vector<std::string> notes;   ///< about the inputs: "12 faces without area"
+  std::string gl_name;             ///< empty where there is no device
+  std::string gl_unavailable;      ///< why; empty where there is one
+  std::string bounds_origin;       ///< "derived: …" or "measured: …"
+  bool bounds_measured = false;    ///< then agreement is not called proven
+  std::vector<std::string> notes;  ///< about the inputs: "12 faces without area"
   [[nodiscard]] ClassTally total() const;
 };
 

@@ -27,10 +27,14 @@ TEST_CASE("base64: the vectors of RFC 4648") {
 
 TEST_CASE("escaping") {
   CHECK(escaped("<a href=\"x\">&</a>") == "&lt;a href=&quot;x&quot;&gt;&amp;&lt;/a&gt;");
-  CHECK(escaped(std::string("a\0b", 3)) == "a\xEF\xBF\xBD" "b");
+  CHECK(escaped(std::string("a\0b", 3)) ==
+        "a\xEF\xBF\xBD"
+        "b");
 }
 
-TEST_CASE("a picture becomes a PNG data URI") { CHECK(png_data_uri(Image(2, 2, kRgb8)).rfind("data:image/png;base64,iVBORw0KGgo", 0) == 0); }
+TEST_CASE("a picture becomes a PNG data URI") {
+  CHECK(png_data_uri(Image(2, 2, kRgb8)).rfind("data:image/png;base64,iVBORw0KGgo", 0) == 0);
+}
 
 TEST_CASE("shares never round a part to all or to nothing") {
   CHECK(share(0, 10) == "0 %");

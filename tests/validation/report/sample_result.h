@@ -39,7 +39,11 @@ inline validation::VerifyResult sample_result() {
   item.worst = {worst};
   item.targets = {target};
   VerifyResult result;
-  result.inputs = {{.name = "head.glb", .sha256 = std::string(64, 'a'), .path = "/secret/place/head.glb", .role = "model", .attribution = "Somebody, CC BY 3.0"}};
+  result.inputs = {{.name = "head.glb",
+                    .sha256 = std::string(64, 'a'),
+                    .path = "/secret/place/head.glb",
+                    .role = "model",
+                    .attribution = "Somebody, CC BY 3.0"}};
   result.jobs = {{"render", "", {item}}, {"indexed", "no texture coordinates (try another)", {}}};
   result.cpu_name = "exact";
   result.gl_name = "some device";

@@ -162,3 +162,28 @@ TEST_CASE("progress and scenes are told in order; pictures do not depend on thre
     CHECK(one.jobs[0].cases[i].targets[0].error_picture == seven.jobs[0].cases[i].targets[0].error_picture);
   }
 }
+
+TEST_CASE("a device with another fill rule is caught, and the mistake is named") {
+  class OtherRule : public Tampered {
+   public:
+    [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override {
+      Frame other = frame;
+      other.state.fill_rule = FillRule::right_ymax;
+      return Tampered::render(list, other);
+    }
+  } device;
+  // Faces that share edges through sample centres: a grid of 8 x 8 cells over 48 x 48 texels, seen straight on.
+  VerifyModel model = swirl_model();
+  for (Vec3f& p : model.mesh.positions) p.z = 0;
+  VerifyOptions options = small();
+  options.width = options.height = 48;
+  options.jobs = {"render"};
+  Camera camera;
+  camera.eye = {0, 0, 2};
+  options.views = {{"straight", camera}};
+  raster::CpuRenderer exact;
+  const VerifyResult result = run_verify({model}, exact, {&device, llvmpipe_model(), ""}, options);
+  REQUIRE(verdict(result) == Verdict::failed);
+  CAPTURE(result.jobs[0].cases[0].diagnosis);
+  CHECK(result.jobs[0].cases[0].diagnosis.find("fill rule right_ymax") != std::string::npos);
+}
