@@ -2,56 +2,50 @@
 
 #include <bit>
 #include <cstddef>
+#include <map>
 #include <utility>
 
 namespace etalon::io {
 namespace {
 
-/// Numbers different wedges (vertex, u, v) in order of appearance: open addressing; the numbers do not depend on the hash.
-class WedgeIndex {
+/// Finds the wedge of a vertex with a given uv, or makes it. A vertex has few wedges, so a list per vertex is searched; whatever exceeds a
+/// short list (the pole of a sphere) goes to a map, or a file could make the search quadratic.
+class WedgeFinder {
  public:
-  using Key = std::array<std::uint32_t, 3>;
+  explicit WedgeFinder(Mesh& mesh) : mesh_(mesh), newest_of_(mesh.positions.size(), kNone) {}
 
-  explicit WedgeIndex(std::size_t expected) { slots_.resize(std::bit_ceil(expected * 2 + 16), kEmpty); }
-
-  /// The number of `key`: that of an equal earlier key, else the next free one, counting from 0.
-  std::uint32_t number_of(const Key& key) {
-    if (keys_.size() * 2 >= slots_.size()) grow();
-    std::size_t slot = hash(key) & (slots_.size() - 1);
-    while (slots_[slot] != kEmpty) {
-      if (keys_[slots_[slot]] == key) return slots_[slot];
-      slot = (slot + 1) & (slots_.size() - 1);
+  WedgeId find_or_make(std::uint32_t vertex, Vec2f uv) {
+    int step_count = 0;
+    for (std::uint32_t w = newest_of_[vertex]; w != kNone; w = older_[w], ++step_count)
+      if (mesh_.wedges[w].uv == uv) return WedgeId(w);
+    if (step_count < kLongestList) {
+      older_.resize(mesh_.wedges.size(), kNone);
+      older_.push_back(newest_of_[vertex]);
+      newest_of_[vertex] = next_number();
+      return make(vertex, uv);
     }
-    slots_[slot] = static_cast<std::uint32_t>(keys_.size());
-    keys_.push_back(key);
-    return slots_[slot];
+    const auto [known, is_new] = others_.try_emplace({vertex, key_bits(uv.x), key_bits(uv.y)}, next_number());
+    return is_new ? make(vertex, uv) : WedgeId(known->second);
   }
 
  private:
-  static constexpr std::uint32_t kEmpty = 0xFFFFFFFFu;
+  static constexpr std::uint32_t kNone = WedgeId::kInvalid;
+  static constexpr int kLongestList = 16;
 
-  static std::size_t hash(const Key& key) {
-    std::uint64_t h = 0x9E3779B97F4A7C15ull;
-    for (const std::uint32_t word : key) {
-      h = (h ^ word) * 0xBF58476D1CE4E5B9ull;
-      h ^= h >> 32;
-    }
-    return static_cast<std::size_t>(h);
+  // Equal bits exactly where the finite floats compare equal.
+  static std::uint32_t key_bits(float value) { return value == 0 ? 0u : std::bit_cast<std::uint32_t>(value); }
+
+  [[nodiscard]] std::uint32_t next_number() const { return static_cast<std::uint32_t>(mesh_.wedges.size()); }
+
+  WedgeId make(std::uint32_t vertex, Vec2f uv) {
+    mesh_.wedges.push_back({VertexId(vertex), uv});
+    return WedgeId(mesh_.wedges.size() - 1);
   }
-  void grow() {
-    slots_.assign(slots_.size() * 2, kEmpty);
-    for (std::uint32_t i = 0; i < keys_.size(); ++i) {
-      std::size_t slot = hash(keys_[i]) & (slots_.size() - 1);
-      while (slots_[slot] != kEmpty) slot = (slot + 1) & (slots_.size() - 1);
-      slots_[slot] = i;
-    }
-  }
-  std::vector<std::uint32_t> slots_;
-  std::vector<Key> keys_;
+  Mesh& mesh_;
+  std::vector<std::uint32_t> newest_of_;  // for each vertex
+  std::vector<std::uint32_t> older_;      // for each wedge: the one before it in its vertex's list
+  std::map<std::array<std::uint32_t, 3>, std::uint32_t> others_;
 };
-
-// Equal bits exactly where the finite floats compare equal.
-std::uint32_t key_bits(float value) { return value == 0 ? 0u : std::bit_cast<std::uint32_t>(value); }
 
 }  // namespace
 
@@ -69,16 +63,10 @@ Mesh to_mesh(TriangleSoup&& soup) {
     for (const auto& f : soup.faces) mesh.faces.push_back({WedgeId(f[0]), WedgeId(f[1]), WedgeId(f[2])});
     return mesh;
   }
-  WedgeIndex index(mesh.positions.size());
+  WedgeFinder finder(mesh);
   for (std::size_t f = 0; f < soup.faces.size(); ++f) {
     std::array<WedgeId, 3> face;
-    for (int corner = 0; corner < 3; ++corner) {
-      const std::uint32_t v = soup.faces[f][corner];
-      const Vec2f uv = soup.corner_uvs[f][corner];
-      const std::uint32_t w = index.number_of({v, key_bits(uv.x), key_bits(uv.y)});
-      if (w == mesh.wedges.size()) mesh.wedges.push_back({VertexId(v), uv});
-      face[corner] = WedgeId(w);
-    }
+    for (int corner = 0; corner < 3; ++corner) face[corner] = finder.find_or_make(soup.faces[f][corner], soup.corner_uvs[f][corner]);
     mesh.faces.push_back(face);
   }
   return mesh;

@@ -64,6 +64,19 @@ TEST_CASE("obj: wedges are the different pairs of vertex and coordinate, by valu
   CHECK(mesh.faces[1] == std::array{WedgeId(0u), WedgeId(2u), WedgeId(3u)});
 }
 
+TEST_CASE("obj: the pole of a sphere has as many wedges as coordinates, each once") {
+  std::string text = "v 0 0 1\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 100; ++i) text += "vt " + std::to_string(i) + " 1\n";
+  for (int pass = 0; pass < 2; ++pass)
+    for (int i = 1; i <= 100; ++i) text += "f 1/" + std::to_string(i) + " 2/1 3/1\n";
+  const Mesh mesh = read(text).mesh;
+  CHECK(mesh.wedge_count() == 102);
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    CHECK(mesh.wedge(FaceId(i), 0) == Wedge{VertexId(0u), {static_cast<float>(i), 1}});
+    CHECK(mesh.faces[i + 100] == mesh.faces[i]);
+  }
+}
+
 TEST_CASE("obj: a face without coordinates among others gets (0, 0) and a note") {
   const LoadedModel model = read(kSquare + "vt 1 1\nf 1/1 2/1 3/1\nf 1//1 3 4\n");
   CHECK(model.mesh.wedge(FaceId(1u), 2).uv == Vec2f(0));
