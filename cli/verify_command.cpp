@@ -70,7 +70,7 @@ VerifyOptions verify_options(const Options& options, Console& console) {
   result.on_case = [&console](const CaseResult& item) {
     const std::string compared = item.tally.texels == 0 ? "not compared"
                                  : item.tally.unexplained == 0
-                                     ? fmt::format("gl {:.2f} s, {} texels differ, all explained", item.gl_seconds,
+                                     ? fmt::format("gl {:.2f} s, {} texels differ, none unexplained", item.gl_seconds,
                                                    grouped(item.tally.texels - item.tally.identical))
                                      : fmt::format("gl {:.2f} s, {} texels UNEXPLAINED", item.gl_seconds, grouped(item.tally.unexplained));
     console.line(

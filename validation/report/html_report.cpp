@@ -81,6 +81,16 @@ std::string hero(const VerifyResult& result) {
   return "";
 }
 
+// Pictures carry the names of those who must be named.
+std::string credits(const VerifyResult& result) {
+  std::string html;
+  for (const VerifyInput& input : result.inputs) {
+    if (!input.attribution.empty() && html.find(escaped(input.attribution)) == std::string::npos)
+      html += "<br><span>model by</span> " + escaped(input.attribution);
+  }
+  return html;
+}
+
 std::string verdict_section(const VerifyResult& result) {
   const ClassTally t = result.total();
   const Banner words = banner(result);
@@ -94,8 +104,8 @@ std::string verdict_section(const VerifyResult& result) {
             tally_cell("unbounded", "unbounded", t.unbounded, t.texels) +
             tally_cell("unexplained", "unexplained", t.unexplained, t.texels) + "</dl>";
   }
-  html += fmt::format("<p class=\"sides\"><span>exact side</span> {}<br><span>device</span> {}</p></div>", escaped(result.cpu_name),
-                      escaped(result.gl_name.empty() ? "none" : result.gl_name));
+  html += fmt::format("<p class=\"sides\"><span>exact side</span> {}<br><span>device</span> {}{}</p></div>", escaped(result.cpu_name),
+                      escaped(result.gl_name.empty() ? "none" : result.gl_name), credits(result));
   return html + hero(result) + "</section>";
 }
 
