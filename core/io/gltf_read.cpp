@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/io/gltf_document.h"
+#include "core/io/gltf_transform.h"
 #include "core/io/image_file.h"
 #include "core/io/input_error.h"
 #include "core/io/mesh_formats.h"
@@ -20,65 +21,6 @@ namespace fs = std::filesystem;
 
 /// Instances let a small file name many triangles: this many vertices or triangles are the most that are built.
 constexpr std::size_t kMaxElements = std::size_t{1} << 27;
-
-/// Affine map: columns 0..2 are the linear part, column 3 the translation.
-struct Transform {
-  Vec3d column[4] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
-  bool identity = true;
-
-  [[nodiscard]] Vec3d linear(const Vec3d& d) const { return column[0] * d.x + column[1] * d.y + column[2] * d.z; }
-  [[nodiscard]] Vec3f point(const Vec3f& p) const { return identity ? p : Vec3f(linear(Vec3d(p)) + column[3]); }
-  [[nodiscard]] bool mirrors() const {
-    const Vec3d &a = column[0], &b = column[1], &c = column[2];
-    return a.x * (b.y * c.z - b.z * c.y) - b.x * (a.y * c.z - a.z * c.y) + c.x * (a.y * b.z - a.z * b.y) < 0;
-  }
-  [[nodiscard]] Transform after(const Transform& first) const {
-    if (identity) return first;
-    if (first.identity) return *this;
-    Transform result;
-    for (int i = 0; i < 3; ++i) result.column[i] = linear(first.column[i]);
-    result.column[3] = linear(first.column[3]) + column[3];
-    result.identity = false;
-    return result;
-  }
-};
-
-template <std::size_t kCount>
-std::array<double, kCount> numbers(const JsonRef& ref) {
-  std::array<double, kCount> result;
-  if (ref.size() != kCount) ref.fail(fmt::format("expected {} numbers, got {}", kCount, ref.size()));
-  for (std::size_t i = 0; i < kCount; ++i) result[i] = ref.at(i).real();
-  return result;
-}
-
-/// glTF 2.0, 3.5.3: `matrix` (column-major), or translation · rotation (unit quaternion x y z w) · scale.
-Transform local_transform(const JsonRef& node) {
-  Transform t;
-  if (node.has("matrix")) {
-    const auto m = numbers<16>(node.at("matrix"));
-    for (int c = 0; c < 4; ++c) t.column[c] = {m[4 * c], m[4 * c + 1], m[4 * c + 2]};
-    t.identity = false;
-    return t;
-  }
-  if (node.has("rotation")) {
-    const auto [x, y, z, w] = numbers<4>(node.at("rotation"));
-    t.column[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
-    t.column[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
-    t.column[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
-    t.identity = false;
-  }
-  if (node.has("scale")) {
-    const auto s = numbers<3>(node.at("scale"));
-    for (int i = 0; i < 3; ++i) t.column[i] *= s[i];
-    t.identity = false;
-  }
-  if (node.has("translation")) {
-    const auto p = numbers<3>(node.at("translation"));
-    t.column[3] = {p[0], p[1], p[2]};
-    t.identity = false;
-  }
-  return t;
-}
 
 class GltfReader {
  public:
@@ -118,7 +60,7 @@ class GltfReader {
     const JsonRef nodes = root.at("nodes");
     struct Visit {
       std::uint64_t node;
-      Transform parent;
+      NodeTransform parent;
     };
     std::vector<Visit> stack;
     if (root.has("scenes")) {
@@ -135,7 +77,7 @@ class GltfReader {
       const JsonRef node = nodes.at(visit.node);
       if (seen[static_cast<std::size_t>(visit.node)]) node.fail("expected at most one parent, got a second one (or a cycle)");
       seen[static_cast<std::size_t>(visit.node)] = true;
-      const Transform world = visit.parent.after(local_transform(node));
+      const NodeTransform world = visit.parent.after(local_transform(node));
       if (node.has("skin")) note("skins are not applied");
       if (node.has("mesh")) add_mesh(document_.root().at("meshes").at(node.at("mesh").integer()), world);
       if (!node.has("children")) continue;
@@ -162,7 +104,7 @@ class GltfReader {
     return result;
   }
 
-  void add_mesh(const JsonRef& mesh, const Transform& world) {
+  void add_mesh(const JsonRef& mesh, const NodeTransform& world) {
     const JsonRef primitives = mesh.at("primitives");
     // Primitives of one mesh often share their vertices and differ in indices only.
     std::map<std::tuple<std::uint64_t, std::uint64_t, std::uint64_t>, std::uint32_t> first_vertex_of;
@@ -206,7 +148,7 @@ class GltfReader {
     return value;
   }
 
-  void add_vertices(std::uint64_t position, std::uint64_t uv, std::uint64_t color, const Transform& world) {
+  void add_vertices(std::uint64_t position, std::uint64_t uv, std::uint64_t color, const NodeTransform& world) {
     const std::size_t count = document_.accessor(position).count;
     if (soup_.positions.size() + count > kMaxElements)
       fail_file(document_.file(), fmt::format("expected at most {} vertices, got more", kMaxElements));

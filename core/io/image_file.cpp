@@ -34,7 +34,7 @@ ImageFormat format_of(std::span<const std::byte> bytes, const std::string& name)
                               printable(text.substr(0, 8))));
 }
 
-ChannelType channel_type(OIIO::TypeDesc type, const std::string& name) {
+ChannelType channel_type(const OIIO::TypeDesc& type, const std::string& name) {
   switch (type.basetype) {
     case OIIO::TypeDesc::UINT8: return ChannelType::unorm8;
     case OIIO::TypeDesc::UINT16: return ChannelType::unorm16;
