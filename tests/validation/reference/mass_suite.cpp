@@ -62,7 +62,10 @@ std::vector<Texel> chosen_texels(Rng& rng, const Scene& scene, std::uint32_t t, 
     for (std::int64_t j = box.j0; j <= box.j1; ++j)
       for (std::int64_t i = box.i0; i <= box.i1; ++i) texels.push_back({static_cast<int>(i), static_cast<int>(j)});
   } else {
-    for (int n = 0; n < wanted; ++n) texels.push_back(random_texel(rng, scene, t, box, n % 2 == 0));
+    const Aim aim = scene.aims[t];
+    const bool aimed = aim.i >= box.i0 && aim.i <= box.i1 && aim.j >= box.j0 && aim.j <= box.j1;
+    if (aimed) texels.push_back({aim.i, aim.j});
+    for (int n = aimed ? 1 : 0; n < wanted; ++n) texels.push_back(random_texel(rng, scene, t, box, n % 2 == 0));
   }
   return texels;
 }

@@ -78,7 +78,9 @@ void add_triangles(Rng& rng, Scene& scene, int triangle_count, int size_exponent
         std::min<std::uint64_t>(rng.below(3) + 1, static_cast<std::uint64_t>(triangle_count) - list.triangles.size()));
     const TriangleDomain domain = domain_of(scene.frame, list, draw, size_exponent);
     for (std::uint32_t n = 0; n < draw.triangle_count; ++n) {
-      previous = random_triangle(rng, domain, previous);
+      Aim aim;
+      previous = random_triangle(rng, domain, previous, aim);
+      scene.aims.push_back(aim);
       const auto first = static_cast<std::uint32_t>(list.vertices.size());
       list.vertices.insert(list.vertices.end(), previous.begin(), previous.end());
       list.triangles.push_back({first, first + 1, first + 2});

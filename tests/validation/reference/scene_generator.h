@@ -2,14 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/draw/draw_list.h"
+#include "tests/validation/reference/triangle_generator.h"
 
 namespace etalon::validation::reference {
 
 struct Scene {
   DrawList list;
   Frame frame;
+  std::vector<Aim> aims;  ///< #T or empty: where a tie was aimed at
 };
 
 /// A block of triangles with many shadings, formats and sizes (log-uniform, sub-texel to 4096 texels, a few as large as positions go):

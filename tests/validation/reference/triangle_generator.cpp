@@ -155,12 +155,60 @@ Corners near_tie(Rng& rng, const TriangleDomain& d) {
   return corners;
 }
 
+// A triangle of any shape, one w, that has at the centre of a texel the weight b1 = m / (m + n) and equal others: the centre is
+// b1·v1 + (1 − b1)·p with v1 = centre + n·δ, p = centre − m·δ, v0 and v2 on either side of p. By the ratio, b1 is the middle of two unorm8
+// (k/510), half (12 bits) or float32 (25 bits) numbers; with ½, attributes a few ulps apart tie, and uv is made to meet a texel border.
+// E has no trailing zeros, so double arithmetic is inexact on these ties.
+Corners inner_tie(Rng& rng, const TriangleDomain& d, Aim& aim) {
+  struct Ratio {
+    std::int64_t m, n;
+  };
+  const Ratio ratio =
+      one_of<Ratio>(rng, {{1, 1}, {1, 1}, {1, 509}, {255, 255}, {101, 409}, {2049, 2047}, {2051, 6141}, {16777217, 16777215}});
+  const std::int64_t texel = std::int64_t{1} << d.subtexel_bits, reach = random_reach(rng, d);
+  const Point inside{rng.between(0, d.frame_x - 1), rng.between(0, d.frame_y - 1)};
+  const Point centre{round_to(inside.x, texel, texel / 2), round_to(inside.y, texel, texel / 2)};
+  aim = {static_cast<int>(centre.x >> d.subtexel_bits), static_cast<int>(centre.y >> d.subtexel_bits)};
+  const Point delta = near_point(rng, {0, 0}, std::max<std::int64_t>(reach / (ratio.m + ratio.n), 1));
+  const Point v1{centre.x + ratio.n * delta.x, centre.y + ratio.n * delta.y}, p{centre.x - ratio.m * delta.x, centre.y - ratio.m * delta.y};
+  const Point v0 = near_point(rng, p, reach);
+  const std::array<Point, 3> position{v0, v1, Point{2 * p.x - v0.x, 2 * p.y - v0.y}};
+  Corners corners;
+  give_values(rng, d, corners);
+  const auto ulps_above = [](float a, std::uint64_t n) {
+    for (; n > 0; --n) a = std::nextafter(a, 1e30f);
+    return a;
+  };
+  const RasterVertex base = corners[0];
+  for (std::size_t k = 0; k < 3; ++k) {
+    RasterVertex& v = corners[k];
+    v.x = static_cast<std::int32_t>(std::clamp(position[k].x, d.x_min, d.x_max));
+    v.y = static_cast<std::int32_t>(std::clamp(position[k].y, d.y_min, d.y_max));
+    v.w = base.w;
+    const std::uint64_t steps = k == 1 ? 1 + 2 * rng.below(2) : 2 * rng.below(2);  // their weighted mean often ends in ½ ulp
+    v.z = std::min(ulps_above(base.z, steps), 1.0f);
+    for (int c = 0; c < 4; ++c) v.color[c] = std::min(ulps_above(base.color[c], steps), 0x1p40f);
+  }
+  // u0 + 2·u1 + u2 = 4·t with t·width a multiple of ¼, all of few bits.
+  const auto dyadic = [&rng] { return static_cast<float>(rng.between(-2048, 2048)) * 0x1p-10f; };
+  for (int c = 0; c < 2; ++c) {
+    const float size = static_cast<float>(c == 0 ? d.texture_width : d.texture_height);
+    const float t = static_cast<float>(rng.between(-16, 16)) / 4 / size;
+    corners[0].uv[c] = dyadic(), corners[1].uv[c] = dyadic();
+    corners[2].uv[c] = 4 * t - 2 * corners[1].uv[c] - corners[0].uv[c];
+  }
+  if (one_in(rng, 3)) corners[rng.below(3)].z = std::min(ulps_above(base.z, 3), 1.0f);
+  return corners;
+}
+
 }  // namespace
 
-Corners random_triangle(Rng& rng, const TriangleDomain& d, const Corners& previous) {
-  const std::uint64_t category = rng.below(16);
+Corners random_triangle(Rng& rng, const TriangleDomain& d, const Corners& previous, Aim& aim) {
+  aim = {};
+  const std::uint64_t category = rng.below(18);
   if (category < 2) return tie(rng, d);
   if (category < 4) return near_tie(rng, d);
+  if (category >= 16) return inner_tie(rng, d, aim);
   Points p;
   if (category < 7)
     p = general(rng, d);

@@ -22,7 +22,12 @@ struct TriangleDomain {
 
 using Corners = std::array<RasterVertex, 3>;
 
-/// A triangle of a random category; `previous` is the one before, whose edge a "shared edge" triangle continues.
-[[nodiscard]] Corners random_triangle(Rng& rng, const TriangleDomain& domain, const Corners& previous);
+/// The texel at which the generator aimed a tie; outside every frame where it aimed at none.
+struct Aim {
+  int i = -1, j = -1;
+};
+
+/// A triangle of a random category; `previous` is the one before, whose edge a "shared edge" triangle continues; `aim` is set.
+[[nodiscard]] Corners random_triangle(Rng& rng, const TriangleDomain& domain, const Corners& previous, Aim& aim);
 
 }  // namespace etalon::validation::reference
