@@ -55,7 +55,7 @@ void resolve_visibility(const DrawList& list, const Frame& frame, const Tile& ti
         } else if (depth < result.depth[at]) {
           if (keep_runner_up && result.triangle[at] != kNoTriangle) result.runner_up[at] = result.depth[at];
           result.triangle[at] = id, result.depth[at] = depth;
-        } else if (keep_runner_up && depth < result.runner_up[at] && result.triangle[at] != kNoTriangle) {
+        } else if (keep_runner_up && depth < 1 && depth < result.runner_up[at] && result.triangle[at] != kNoTriangle) {
           result.runner_up[at] = depth;
         }
       }

@@ -50,8 +50,8 @@ struct Sampler {
 enum class TargetContent : std::uint8_t {
   color,         ///< the draw's shading, in any format but uint32
   triangle_id,   ///< index of the triangle in the draw list (R uint32; kNoTriangle where none)
-  barycentrics,  ///< perspective-correct weights of vertices 0, 1, 2 (RGB; any float or unorm format)
-  coordinate,    ///< interpolated uv (RG; any float or unorm format)
+  barycentrics,  ///< perspective-correct weights of vertices 0, 1, 2 (RGB; any format but uint32)
+  coordinate,    ///< interpolated uv (RG; any format but uint32)
   depth,         ///< window depth (R float32)
   margins,       ///< RGBA float32: distance to the nearest edge in sub-texels; of u·width and of v·height to the nearest texel border, in
                  ///< texels (of (u·width − ½), … for linear); depth gap to the runner-up (+inf where there is none)

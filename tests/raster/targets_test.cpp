@@ -75,6 +75,15 @@ TEST_CASE("margins: edge, texel borders, depth gap") {
   CHECK(images[1].channels<float>(1, 2)[1] == 0);
 }
 
+TEST_CASE("a fragment at depth 1 is never drawn and so never a runner-up, whatever the order") {
+  const std::vector<RasterVertex> t = {at(0, 0), at(4, 0), at(0, 4)};
+  const Frame frame = frame_of(1, 1, {{TargetContent::margins, kRgba32f}});
+  raster::CpuRenderer renderer;
+  CHECK(renderer.render(list_of(with_depth(t, 0.5f) + with_depth(t, 1)), frame)[0].channels<float>(0, 0)[3] == kInf);
+  CHECK(renderer.render(list_of(with_depth(t, 1) + with_depth(t, 0.5f)), frame)[0].channels<float>(0, 0)[3] == kInf);
+  CHECK(renderer.render(list_of(with_depth(t, 0.5f) + with_depth(t, 0.5f)), frame)[0].channels<float>(0, 0)[3] == 0);
+}
+
 TEST_CASE("vertex colours have no texel border; a lone triangle no runner-up") {
   raster::CpuRenderer renderer;
   const Image image = renderer.render(list_of({at(0, 0), at(4, 0), at(0, 4)}), frame_of(1, 1, {{TargetContent::margins, kRgba32f}}))[0];
