@@ -79,7 +79,8 @@ bool under_any(const std::string& path, const std::vector<std::string>& folders)
 void check_ours(const SourceFile& file, const Include& include, const std::set<std::string>& paths, std::vector<Violation>& out) {
   const std::string from = layer_of(file.path), to = layer_of(include.target);
   const auto report = [&](const char* rule, const std::string& detail) { out.push_back({file.path, include.line, rule, detail}); };
-  if (!paths.contains(include.target)) return report("include path", "\"" + include.target + "\" is no file of the tree, written from its root");
+  if (!paths.contains(include.target))
+    return report("include path", "\"" + include.target + "\" is no file of the tree, written from its root");
   if (to.empty()) return report("layer", include.target + " is in a folder that no rule knows");
   if (is_under(file.path, "validation/reference") && !under_any(include.target, kReferenceMayInclude))
     return report("layer", "validation/reference must not include " + include.target);
@@ -139,7 +140,8 @@ std::vector<Violation> check_reference_reach(const std::vector<SourceFile>& file
         violations.push_back({start.path, 0, "the judge's reach", chain[path]});
       if (!by_path.contains(path)) continue;
       for (const Include& include : includes_of(by_path[path]->text))
-        if (include.quoted && chain.try_emplace(include.target, chain[path] + " -> " + include.target).second) open.push_back(include.target);
+        if (include.quoted && chain.try_emplace(include.target, chain[path] + " -> " + include.target).second)
+          open.push_back(include.target);
     }
   }
   return violations;

@@ -12,11 +12,13 @@ namespace {
 
 // A small legal tree, to which a test adds one file.
 std::vector<SourceFile> tree_with(const std::string& path, const std::string& text) {
-  std::vector<SourceFile> files = {
-      {"core/base/error.h", ""},       {"core/math/vec.h", ""},     {"core/math/wide_int.h", ""}, {"core/image/image.h", "#include \"core/math/vec.h\"\n"},
-      {"core/mesh/mesh.h", ""},        {"core/simplify/q.h", ""},   {"core/io/png.h", ""},        {"core/draw/state.h", "#include \"core/image/image.h\"\n"},
-      {"raster/cpu_renderer.h", ""},   {"gpu/gl_renderer.h", ""},   {"validation/diff.h", ""},    {"validation/reference/judge.h", ""},
-      {"tests/support/skip.h", ""},    {"cli/verify.h", ""}};
+  std::vector<SourceFile> files = {{"core/base/error.h", ""},     {"core/math/vec.h", ""},
+                                   {"core/math/wide_int.h", ""},  {"core/image/image.h", "#include \"core/math/vec.h\"\n"},
+                                   {"core/mesh/mesh.h", ""},      {"core/simplify/q.h", ""},
+                                   {"core/io/png.h", ""},         {"core/draw/state.h", "#include \"core/image/image.h\"\n"},
+                                   {"raster/cpu_renderer.h", ""}, {"gpu/gl_renderer.h", ""},
+                                   {"validation/diff.h", ""},     {"validation/reference/judge.h", ""},
+                                   {"tests/support/skip.h", ""},  {"cli/verify.h", ""}};
   files.push_back({path, text});
   return files;
 }
@@ -56,7 +58,8 @@ TEST_CASE("layers: the renderers see core/draw, nothing above it and not each ot
 }
 
 TEST_CASE("layers: validation sees all below it; only tests see the tests and the commands") {
-  CHECK(found("validation/a.cpp", "#include \"raster/cpu_renderer.h\"\n#include \"gpu/gl_renderer.h\"\n#include \"core/io/png.h\"\n") == kClean);
+  CHECK(found("validation/a.cpp", "#include \"raster/cpu_renderer.h\"\n#include \"gpu/gl_renderer.h\"\n#include \"core/io/png.h\"\n") ==
+        kClean);
   CHECK(found("validation/a.cpp", "#include \"cli/verify.h\"\n") == kLayer);
   CHECK(found("cli/a.cpp", "#include \"validation/diff.h\"\n") == kClean);
   CHECK(found("cli/a.cpp", "#include \"tests/support/skip.h\"\n") == kLayer);
@@ -78,7 +81,8 @@ TEST_CASE("include paths: from the root, and there") {
 TEST_CASE("outside libraries: each in its folder") {
   CHECK(found("core/base/a.cpp", "#include <tbb/parallel_for.h>\n") == kClean);
   CHECK(found("raster/a.cpp", "#include <tbb/parallel_for.h>\n") == kLibrary);
-  CHECK(found("core/io/a.cpp", "#include <OpenImageIO/imageio.h>\n#include <OpenEXR/ImfChannelList.h>\n#include <tiny_gltf.h>\n") == kClean);
+  CHECK(found("core/io/a.cpp", "#include <OpenImageIO/imageio.h>\n#include <OpenEXR/ImfChannelList.h>\n#include <tiny_gltf.h>\n") ==
+        kClean);
   CHECK(found("core/image/a.cpp", "#include <OpenImageIO/imageio.h>\n") == kLibrary);
   CHECK(found("raster/a.cpp", "#include <Imath/half.h>\n") == kLibrary);
   CHECK(found("core/mesh/a.cpp", "#include <tiny_obj_loader.h>\n") == kLibrary);

@@ -67,9 +67,7 @@ std::string read_file(const fs::path& path) {
 
 }  // namespace
 
-std::string Violation::text() const {
-  return path + (line > 0 ? ":" + std::to_string(line) : "") + ": " + rule + ": " + detail;
-}
+std::string Violation::text() const { return path + (line > 0 ? ":" + std::to_string(line) : "") + ": " + rule + ": " + detail; }
 
 std::string code_only(std::string_view text) { return strip(text, Keep::code); }
 

@@ -22,13 +22,20 @@ const std::vector<Pattern>& patterns() {
   static const std::vector<Pattern> kPatterns = {
       {"libm",
        // A call: at the start of a line, after an operator (-> and . apart) or `return`; `std::string log(text)` declares a variable.
-       std::regex(R"((^\s*|[^\w\s.>:]\s*|\s>\s*|\breturn\s+|\bstd::|(^|[^\w>])::)(a?(sin|cos|tan)h?|atan2|sincos|pow|exp|exp2|exp10|expm1|log|log2|log10|log1p|cbrt|hypot|[tl]gamma|erfc?)[fl]?\s*\()"),
+       std::regex(
+           R"((^\s*|[^\w\s.>:]\s*|\s>\s*|\breturn\s+|\bstd::|(^|[^\w>])::)(a?(sin|cos|tan)h?|atan2|sincos|pow|exp|exp2|exp10|expm1|log|log2|log10|log1p|cbrt|hypot|[tl]gamma|erfc?)[fl]?\s*\()"),
        "differs between C libraries", false, false},
       {"random", std::regex(R"(#\s*include\s*<random>|\b(s?rand|drand48|random)\s*\(|std::shuffle|std::random_)"), "use core/base/rng.h"},
       {"unordered", std::regex(R"(\bunordered_(multi)?(map|set)\b)"), "use a sorted vector or std::map", false, false},
       {"fast math", std::regex(R"(#\s*pragma\s+(STDC\s+FP_CONTRACT\s+ON|GCC\s+optimize|clang\s+fp)|fast-math|__builtin_assoc_barrier)"),
        "no compiler may change a value"},
-      {"unfinished", std::regex("\\b(TO" "DO|FIX" "ME|XX" "X|HA" "CK)\\b"), "finish it or file it", true},
+      {"unfinished",
+       std::regex("\\b(TO"
+                  "DO|FIX"
+                  "ME|XX"
+                  "X|HA"
+                  "CK)\\b"),
+       "finish it or file it", true},
   };
   return kPatterns;
 }

@@ -83,7 +83,8 @@ NamedScene random_scene(std::uint64_t seed) {
   for (std::uint32_t d = 0; d < 6; ++d) {
     Draw draw{.first_triangle = 4 * d, .triangle_count = 4, .shading = static_cast<Shading>(d % 3)};
     if (draw.shading != Shading::vertex_color) draw.texture = static_cast<std::uint32_t>(rng.below(3)), draw.sampler = random_sampler();
-    if (draw.shading == Shading::indexed) draw.indexing_map = 3 + static_cast<std::uint32_t>(rng.below(2)), draw.map_sampler = random_sampler();
+    if (draw.shading == Shading::indexed)
+      draw.indexing_map = 3 + static_cast<std::uint32_t>(rng.below(2)), draw.map_sampler = random_sampler();
     list.draws.push_back(draw);
     for (int t = 0; t < 4; ++t) {
       // Vertices are shared, so triangles have common edges.
@@ -95,7 +96,8 @@ NamedScene random_scene(std::uint64_t seed) {
 }
 
 NamedScene model_scene(const procedural::Model& model, const std::string& view, Filter filter) {
-  NamedScene scene{model.name + ", " + view, {}, {192, 160, 2048, {}, {{TargetContent::color, kRgb8}, {TargetContent::triangle_id, kR32ui}}}};
+  NamedScene scene{
+      model.name + ", " + view, {}, {192, 160, 2048, {}, {{TargetContent::color, kRgb8}, {TargetContent::triangle_id, kR32ui}}}};
   const Material material{.texture = std::make_shared<Image>(model.texture), .sampler = {filter, Wrap::repeat, Wrap::repeat}};
   const Camera camera = named_view(view, bounding_box(model.mesh), scene.frame.width, scene.frame.height);
   scene.list = make_scene(model.mesh, {material}, camera, scene.frame);
