@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/float_environment.h"
 #include "core/base/parallel.h"
 #include "raster/visibility.h"
 
@@ -75,12 +76,13 @@ EvaluationCounters shade_tile(const DrawList& list, const Frame& frame, const Ti
 std::string CpuRenderer::name() const { return fmt::format("etalon cpu, contract {}", kRasterContractVersion); }
 
 std::vector<Image> CpuRenderer::render(const DrawList& list, const Frame& frame) {
+  const DefaultFloatEnvironment environment;
   validate(list, frame);
   std::vector<Image> images;
   for (const TargetSpec& target : frame.targets) images.emplace_back(frame.width, frame.height, target.format);
-  const bool keep_runner_up =
-      frame.state.depth_test &&
-      std::any_of(frame.targets.begin(), frame.targets.end(), [](const TargetSpec& t) { return t.content == TargetContent::margins; });
+  const bool keep_runner_up = frame.state.depth_test && std::any_of(frame.targets.begin(), frame.targets.end(), [](const TargetSpec& t) {
+                                return t.content == TargetContent::margins;
+                              });
 
   const TileGrid grid = bin_triangles(list, frame);
   std::vector<EvaluationCounters> per_tile(grid.bins.size());

@@ -34,7 +34,8 @@ Edges make_edges(const RasterVertex& v0, const RasterVertex& v1, const RasterVer
   Edges edges;
   edges.subtexel_bits = frame.state.subtexel_bits;
   const std::array<const RasterVertex*, 3> v = {&v0, &v1, &v2};
-  const std::int64_t area2 = (std::int64_t{v1.x} - v0.x) * (std::int64_t{v2.y} - v0.y) - (std::int64_t{v1.y} - v0.y) * (std::int64_t{v2.x} - v0.x);
+  const std::int64_t area2 =
+      (std::int64_t{v1.x} - v0.x) * (std::int64_t{v2.y} - v0.y) - (std::int64_t{v1.y} - v0.y) * (std::int64_t{v2.x} - v0.x);
   if (area2 == 0) return edges;
   if (area2 < 0 && frame.state.cull == CullMode::clockwise) return edges;
   if (area2 > 0 && frame.state.cull == CullMode::counter_clockwise) return edges;

@@ -17,7 +17,9 @@ struct TriangleCoordinate {
   const SampleNumbers& numbers;
   [[nodiscard]] Interval enclose_axis(int axis) const { return numbers.enclose_attribute(static_cast<Attribute>(kU + axis)); }
   template <int kLimbs>
-  [[nodiscard]] Quotient<kLimbs> quotient(int axis) const { return numbers.quotient<kLimbs>(static_cast<Attribute>(kU + axis)); }
+  [[nodiscard]] Quotient<kLimbs> quotient(int axis) const {
+    return numbers.quotient<kLimbs>(static_cast<Attribute>(kU + axis));
+  }
   /// Limbs for border decisions and linear values with texels of `texel_bits` bits.
   [[nodiscard]] int limbs(int texel_bits) const { return numbers.setup.linear_limbs(texel_bits); }
 };
@@ -45,8 +47,8 @@ struct StoredCoordinate {
 /// u·n − offset/2 as a fraction over an unscaled denominator: floor and remainder, exact. offset is 0 (nearest) or 1 (linear).
 template <int kLimbs>
 struct BorderSplit {
-  std::int64_t index;            ///< floor
-  WideInt<kLimbs> remainder;     ///< in [0, denominator)
+  std::int64_t index;         ///< floor
+  WideInt<kLimbs> remainder;  ///< in [0, denominator)
   WideInt<kLimbs> denominator;
 };
 
@@ -130,9 +132,8 @@ class Lookup {
     } else {
       ++counters_.exact_path;
       decided_ = false;
-      with_limbs(at.limbs(8), [&]<int kLimbs>() {
-        index = split_at_border<kLimbs>(at.template quotient<kLimbs>(axis), size, linear ? 1 : 0).index;
-      });
+      with_limbs(at.limbs(8),
+                 [&]<int kLimbs>() { index = split_at_border<kLimbs>(at.template quotient<kLimbs>(axis), size, linear ? 1 : 0).index; });
     }
     auto& texel = axis == 0 ? x_ : y_;
     texel[0] = wrapped(index, size, wrap);

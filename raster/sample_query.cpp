@@ -2,11 +2,13 @@
 
 #include <limits>
 
+#include "core/base/float_environment.h"
 #include "raster/visibility.h"
 
 namespace etalon::raster {
 
-SampleQuery::SampleQuery(const DrawList& list, const Frame& frame, Evaluation evaluation) : list_(list), frame_(frame), evaluation_(evaluation) {
+SampleQuery::SampleQuery(const DrawList& list, const Frame& frame, Evaluation evaluation)
+    : list_(list), frame_(frame), evaluation_(evaluation) {
   validate(list, frame);
 }
 
@@ -23,11 +25,13 @@ bool SampleQuery::covers(std::uint32_t t, int i, int j) const {
 }
 
 float SampleQuery::depth(std::uint32_t t, int i, int j) const {
+  const DefaultFloatEnvironment environment;
   const TriangleSetup& s = setup(t);
   return stored_depth(s.edges.at(i, j), s.edges.area2, s.attribute[kDepth]);
 }
 
 void SampleQuery::store(std::uint32_t t, int i, int j, std::byte* const* texels) const {
+  const DefaultFloatEnvironment environment;
   EvaluationCounters ignored;
   store_sample(list_, list_.draw_of(t), frame_, setup(t), t, i, j, {depth(t, i, j), std::numeric_limits<float>::infinity()}, evaluation_,
                texels, ignored);

@@ -110,8 +110,8 @@ void store_bound_terms(SampleNumbers& numbers, const DrawList& list, const Draw&
 
 }  // namespace
 
-void store_sample(const DrawList& list, const Draw& draw, const Frame& frame, const TriangleSetup& setup, std::uint32_t triangle, int i, int j,
-                  SampleDepth depth, Evaluation evaluation, std::byte* const* texels, EvaluationCounters& counters) {
+void store_sample(const DrawList& list, const Draw& draw, const Frame& frame, const TriangleSetup& setup, std::uint32_t triangle, int i,
+                  int j, SampleDepth depth, Evaluation evaluation, std::byte* const* texels, EvaluationCounters& counters) {
   SampleNumbers numbers(setup, i, j, evaluation == Evaluation::exact, counters);
   for (std::size_t n = 0; n < frame.targets.size(); ++n) {
     const TargetSpec& target = frame.targets[n];

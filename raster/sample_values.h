@@ -15,14 +15,17 @@ namespace etalon::raster {
 /// How values are found; the bytes do not depend on it.
 enum class Evaluation : std::uint8_t {
   filtered,  ///< double enclosures first, wide integers where they cannot decide
-  exact,     ///< wide integers always: the plain second opinion
+  exact,     ///< wide integers for every stored value and texel choice: a second opinion on the enclosures (not on depth and edge distance)
 };
 
 /// How often the enclosures decided; sums over tiles are exact integers, so they too are the same for every thread count.
 struct EvaluationCounters {
   std::uint64_t values = 0;      ///< numbers stored or decided (a texel choice counts as one per axis)
   std::uint64_t exact_path = 0;  ///< of these, decided by wide integers
-  EvaluationCounters& operator+=(const EvaluationCounters& o) { values += o.values, exact_path += o.exact_path; return *this; }
+  EvaluationCounters& operator+=(const EvaluationCounters& o) {
+    values += o.values, exact_path += o.exact_path;
+    return *this;
+  }
 };
 
 /// The depths a sample knows from the visibility pass.
@@ -32,8 +35,8 @@ struct SampleDepth {
 };
 
 /// Writes texel (i, j) of every target of the frame for a triangle that covers it. `texels[n]`: first byte of the texel in target n.
-void store_sample(const DrawList& list, const Draw& draw, const Frame& frame, const TriangleSetup& setup, std::uint32_t triangle, int i, int j,
-                  SampleDepth depth, Evaluation evaluation, std::byte* const* texels, EvaluationCounters& counters);
+void store_sample(const DrawList& list, const Draw& draw, const Frame& frame, const TriangleSetup& setup, std::uint32_t triangle, int i,
+                  int j, SampleDepth depth, Evaluation evaluation, std::byte* const* texels, EvaluationCounters& counters);
 
 /// Writes what a texel without any triangle holds.
 void store_clear(const Frame& frame, std::byte* const* texels);

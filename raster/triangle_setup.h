@@ -32,7 +32,7 @@ struct TriangleSetup {
   int weight_bits = 0;  ///< bit length bound of E_i · w_exact[i] for a sample inside, and of their sum
   int step_bits = 0;    ///< the same for their change over one texel
 
-  /// Limbs that hold every intermediate of docs/contract.md#widths; derivations in the .cpp.
+  /// Limbs that hold every intermediate for inputs in the ranges of docs/contract.md#input; derivations in the .cpp.
   [[nodiscard]] int scalar_limbs(Attribute a) const;
   [[nodiscard]] int linear_limbs(int texel_bits) const;
   [[nodiscard]] int gradient_limbs() const;

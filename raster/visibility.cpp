@@ -46,7 +46,8 @@ void resolve_visibility(const DrawList& list, const Frame& frame, const Tile& ti
       const int first = std::max(span[0], tile.x0), last = std::min(span[1], tile.x0 + tile.width - 1);
       if (first > last) continue;
       EdgeValues e = edges.at(first, j);
-      std::size_t at = static_cast<std::size_t>(j - tile.y0) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(first - tile.x0);
+      std::size_t at =
+          static_cast<std::size_t>(j - tile.y0) * static_cast<std::size_t>(tile.width) + static_cast<std::size_t>(first - tile.x0);
       for (int i = first; i <= last; ++i, ++at) {
         const float depth = stored_depth(e, edges.area2, z);
         for (int k = 0; k < 3; ++k) e[k] -= edges.dy[k] << edges.subtexel_bits;

@@ -50,7 +50,8 @@ std::string TexelExplainer::describe(int x, int y, const TexelVerdict& verdict) 
       }
       return text + fmt::format(": tie, the texel beyond a border {:.3g} texels away was chosen, bound {:.3g}; its value is the one stored",
                                 verdict.margin, verdict.margin_bound);
-    case TexelClass::unbounded: return text + ": unbounded, the device's own error may exceed half a texel or a quarter of the value's range here";
+    case TexelClass::unbounded:
+      return text + ": unbounded, the device's own error may exceed half a texel or a quarter of the value's range here";
     case TexelClass::unexplained: break;
   }
   return text + fmt::format(": UNEXPLAINED ({})", to_string(verdict.cause));

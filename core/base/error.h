@@ -44,7 +44,8 @@ class InternalError : public Error {
 }  // namespace etalon
 
 /// Always-on check of an invariant; `detail` is any std::string expression with the operands.
-#define ETALON_CHECK(condition, detail) \
-  do { \
-    if (!(condition)) [[unlikely]] ::etalon::throw_check_failed(__FILE__, __LINE__, #condition, (detail)); \
+#define ETALON_CHECK(condition, detail)                                       \
+  do {                                                                        \
+    if (!(condition)) [[unlikely]]                                            \
+      ::etalon::throw_check_failed(__FILE__, __LINE__, #condition, (detail)); \
   } while (false)

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/base/float_environment.h"
+
 namespace etalon {
 namespace {
 
@@ -22,8 +24,7 @@ void set_thread_count(int count) {
   arena.reset();
   limit.reset();
   if (requested_threads == 0) return;
-  limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                static_cast<std::size_t>(requested_threads));
+  limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(requested_threads));
   // An arena of its own, so that more threads than cores are really used when asked for.
   arena = std::make_unique<tbb::task_arena>(requested_threads);
 }
@@ -31,7 +32,11 @@ void set_thread_count(int count) {
 int thread_count() { return requested_threads > 0 ? requested_threads : tbb::info::default_concurrency(); }
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-  const auto work = [&] { tbb::parallel_for(std::size_t{0}, count, body, tbb::simple_partitioner()); };
+  const auto guarded = [&body](std::size_t i) {
+    const DefaultFloatEnvironment environment;
+    body(i);
+  };
+  const auto work = [&] { tbb::parallel_for(std::size_t{0}, count, guarded, tbb::simple_partitioner()); };
   if (arena)
     arena->execute(work);
   else

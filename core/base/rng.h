@@ -18,9 +18,7 @@ class Rng {
   }
 
   /// Uniform in [0, n), n > 0, without modulo bias beyond n/2^64.
-  constexpr std::uint64_t below(std::uint64_t n) {
-    return static_cast<std::uint64_t>((static_cast<unsigned __int128>(next()) * n) >> 64);
-  }
+  constexpr std::uint64_t below(std::uint64_t n) { return static_cast<std::uint64_t>((static_cast<unsigned __int128>(next()) * n) >> 64); }
 
   /// Uniform integer in [lo, hi], both included.
   constexpr std::int64_t between(std::int64_t lo, std::int64_t hi) {

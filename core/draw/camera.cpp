@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/float_environment.h"
 
 namespace etalon {
 namespace {
@@ -54,7 +55,8 @@ Camera filling_view(const BoundingBox& box, const Vec3d& direction, double aspec
   const Vec3d up = cross(back, right);
   double distance = sphere.radius * 0x1p-6;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d p = minus({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z}, sphere.center);
+    const Vec3d p =
+        minus({corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z}, sphere.center);
     // |x| <= kFilled·tan·aspect·(distance − depth), and so on.
     const double x = std::abs(dot(p, right)) / (kFilled * kTan * aspect), y = std::abs(dot(p, up)) / (kFilled * kTan);
     distance = std::max(distance, dot(p, back) + std::max(x, y));
@@ -67,6 +69,7 @@ Camera filling_view(const BoundingBox& box, const Vec3d& direction, double aspec
 }  // namespace
 
 Matrix4 clip_from_object(const Camera& camera, int width, int height) {
+  const DefaultFloatEnvironment environment;
   for (int i = 0; i < 3; ++i)
     if (!std::isfinite(camera.eye[i]) || !std::isfinite(camera.target[i]) || !std::isfinite(camera.up[i]))
       throw InputError("view: eye, target and up must be finite");
@@ -120,9 +123,9 @@ Camera named_view(const std::string& name, const BoundingBox& box, int width, in
     const auto [end, error] = std::from_chars(name.data(), name.data() + slash, index);
     if (error == std::errc() && end == name.data() + slash) return view_of_24(box, index);
   }
-  if (name != "front" && name != "fit")
-    throw InputError(fmt::format("view: expected front, fit, N/24 or a file, got '{}'", name));
-  return filling_view(box, name == "front" ? Vec3d{0, 0, 1} : Vec3d{0.75, 0.375, 1}, static_cast<double>(width) / static_cast<double>(height));
+  if (name != "front" && name != "fit") throw InputError(fmt::format("view: expected front, fit, N/24 or a file, got '{}'", name));
+  return filling_view(box, name == "front" ? Vec3d{0, 0, 1} : Vec3d{0.75, 0.375, 1},
+                      static_cast<double>(width) / static_cast<double>(height));
 }
 
 }  // namespace etalon

@@ -3,7 +3,7 @@
 namespace etalon {
 namespace {
 
-double side(const ClipPlane& p, const ClipVertex& v) { return p.x * v.x + p.y * v.y + p.z * v.z + p.w * v.w; }
+double side(const ClipPlane& p, const ClipVertex& v) { return p.x * v.x + p.y * v.y + p.z * v.z + p.w * v.w + p.constant; }
 
 ClipVertex intersection(ClipVertex a, ClipVertex b, const ClipPlane& plane, std::uint64_t plane_index) {
   if (b.order < a.order) std::swap(a, b);
@@ -23,13 +23,20 @@ ClipVertex intersection(ClipVertex a, ClipVertex b, const ClipPlane& plane, std:
 
 }  // namespace
 
-std::array<ClipPlane, 6> clip_planes(int width, int height, int guard) {
+std::array<ClipPlane, 8> clip_planes(int width, int height, int guard) {
   // x_window = (x/w + 1)·W/2 >= −guard  ⇔  x + w·(1 + 2·guard/W) >= 0, and so on.
   const double gx = 1 + 2.0 * guard / width, gy = 1 + 2.0 * guard / height;
-  return {{{0, 0, 1, 1}, {0, 0, -1, 1}, {1, 0, 0, gx}, {-1, 0, 0, gx}, {0, 1, 0, gy}, {0, -1, 0, gy}}};
+  return {{{0, 0, 1, 1, 0},
+           {0, 0, -1, 1, 0},
+           {1, 0, 0, gx, 0},
+           {-1, 0, 0, gx, 0},
+           {0, 1, 0, gy, 0},
+           {0, -1, 0, gy, 0},
+           {0, 0, 0, 1, -0x1p-20},
+           {0, 0, 0, -1, 0x1p20}}};
 }
 
-std::vector<ClipVertex> clip_triangle(const std::array<ClipVertex, 3>& triangle, const std::array<ClipPlane, 6>& planes) {
+std::vector<ClipVertex> clip_triangle(const std::array<ClipVertex, 3>& triangle, const std::array<ClipPlane, 8>& planes) {
   std::vector<ClipVertex> polygon(triangle.begin(), triangle.end());
   std::vector<ClipVertex> next;
   for (std::size_t p = 0; p < planes.size() && !polygon.empty(); ++p) {

@@ -17,16 +17,17 @@ struct ClipVertex {
   std::uint64_t order = 0;  ///< mesh vertex index; decides from which end an edge is cut, so neighbours cut alike
 };
 
-/// A half space: inside where dot(plane, (x, y, z, w)) >= 0.
+/// A half space: inside where x·v.x + y·v.y + z·v.z + w·v.w + constant >= 0.
 struct ClipPlane {
-  double x, y, z, w;
+  double x, y, z, w, constant;
 };
 
-/// near, far, left, right, bottom, top of the frame extended by `guard` texels, in this order.
-[[nodiscard]] std::array<ClipPlane, 6> clip_planes(int width, int height, int guard);
+/// near, far, left, right, bottom, top of the frame extended by `guard` texels, then w >= 2^-20 and w <= 2^20 (a far plane more than 2^23
+/// times the near one no longer bounds w in float32), in this order.
+[[nodiscard]] std::array<ClipPlane, 8> clip_planes(int width, int height, int guard);
 
-/// The triangle inside all planes: a convex polygon of 0 or 3..9 vertices in the input's orientation. An intersection is computed in double
+/// The triangle inside all planes: a convex polygon of 0 or 3..11 vertices in the input's orientation. An intersection is computed in double
 /// from the end of lower order towards the other, then rounded to float32; it takes the order of a hash of both, equal for both neighbours.
-[[nodiscard]] std::vector<ClipVertex> clip_triangle(const std::array<ClipVertex, 3>& triangle, const std::array<ClipPlane, 6>& planes);
+[[nodiscard]] std::vector<ClipVertex> clip_triangle(const std::array<ClipVertex, 3>& triangle, const std::array<ClipPlane, 8>& planes);
 
 }  // namespace etalon

@@ -50,11 +50,14 @@ struct DrawList {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< #T by 3, indices into vertices, either orientation
   std::vector<Draw> draws;                              ///< cover the triangles in order, without gap or overlap
   std::vector<std::shared_ptr<const Image>> images;
-  std::vector<std::uint32_t> source_faces;              ///< #T or empty: the mesh face each triangle was clipped from
+  std::vector<std::uint32_t> source_faces;  ///< #T or empty: the mesh face each triangle was clipped from
 
   /// The draw that triangle `t` belongs to (binary search; t < triangles.size()).
   [[nodiscard]] const Draw& draw_of(std::uint32_t t) const;
 };
+
+/// Throws InputError where the frame's size, guard, sub-texel bits or targets break docs/contract.md#input.
+void validate(const Frame& frame);
 
 /// Throws InputError naming the first primitive (and what, expected, got) that breaks docs/contract.md#input for this frame.
 void validate(const DrawList& list, const Frame& frame);

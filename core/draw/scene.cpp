@@ -6,18 +6,19 @@
 #include <cmath>
 
 #include "core/base/error.h"
+#include "core/base/float_environment.h"
 #include "core/draw/clip.h"
 
 namespace etalon {
 namespace {
 
 double rounded(double x, SnapRounding rounding) {
-  const double below = std::floor(x), rest = x - below;  // |x| <= 2^30: exact, or rounded to 1 for a tiny negative x, which decides alike
+  const double below = std::floor(x), middle = below + 0.5;  // exact for |x| <= 2^30; x − below would not be
   switch (rounding) {
-    case SnapRounding::nearest_even: return rest > 0.5 || (rest == 0.5 && (static_cast<std::int64_t>(below) & 1) != 0) ? below + 1 : below;
-    case SnapRounding::half_up: return rest >= 0.5 ? below + 1 : below;
-    case SnapRounding::half_away: return rest > 0.5 || (rest == 0.5 && x > 0) ? below + 1 : below;
-    case SnapRounding::toward_zero: return x < 0 && rest != 0 ? below + 1 : below;
+    case SnapRounding::nearest_even: return x > middle || (x == middle && (static_cast<std::int64_t>(below) & 1) != 0) ? below + 1 : below;
+    case SnapRounding::half_up: return x >= middle ? below + 1 : below;
+    case SnapRounding::half_away: return x > middle || (x == middle && x > 0) ? below + 1 : below;
+    case SnapRounding::toward_zero: return x < 0 && x != below ? below + 1 : below;
     case SnapRounding::floor: return below;
   }
   return below;
@@ -31,8 +32,7 @@ class ListBuilder {
   }
 
   void begin_face(std::uint32_t material) {
-    if (material >= materials_.size())
-      throw InputError(fmt::format("scene: face material {} of {}", material, materials_.size()));
+    if (material >= materials_.size()) throw InputError(fmt::format("scene: face material {} of {}", material, materials_.size()));
     Draw draw;
     const Material& m = materials_[material];
     if (m.texture != nullptr) {
@@ -68,15 +68,15 @@ class ListBuilder {
 void check_mesh(const Mesh& mesh) {
   if (!mesh.colors.empty() && mesh.colors.size() != mesh.positions.size())
     throw InputError(fmt::format("mesh: expected {} vertex colours or none, got {}", mesh.positions.size(), mesh.colors.size()));
+  if (!mesh.face_materials.empty() && mesh.face_materials.size() != mesh.faces.size())
+    throw InputError(fmt::format("mesh: expected {} face materials or none, got {}", mesh.faces.size(), mesh.face_materials.size()));
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     for (const WedgeId wedge : mesh.faces[f])
       if (wedge.index >= mesh.wedges.size() || mesh.wedges[wedge.index].vertex.index >= mesh.positions.size())
         throw InputError(fmt::format("mesh: face {} names a wedge or vertex that does not exist", f));
 }
 
-Vec4f color_of(const Mesh& mesh, VertexId vertex) {
-  return mesh.colors.empty() ? Vec4f(0.5f, 0.5f, 0.5f, 1) : mesh.colors[vertex.index];
-}
+Vec4f color_of(const Mesh& mesh, VertexId vertex) { return mesh.colors.empty() ? Vec4f(0.5f, 0.5f, 0.5f, 1) : mesh.colors[vertex.index]; }
 
 ClipVertex clip_vertex(const Mesh& mesh, WedgeId id, const Matrix4& clip_from_object) {
   const Wedge& wedge = mesh.wedges[id.index];
@@ -95,7 +95,7 @@ ClipVertex clip_vertex(const Mesh& mesh, WedgeId id, const Matrix4& clip_from_ob
 
 RasterVertex raster_vertex(const ClipVertex& v, const Frame& frame) {
   const double w = v.w;
-  // After clipping only the rounding of a cut vertex can leave the guard or the depth range, by less than a sub-texel: brought back here.
+  // After clipping only the rounding of a cut vertex can leave the guard, or the ranges of depth and w, by less than a sub-texel: brought back here.
   const auto window = [&](float clip, int size) {
     const double texels = (double{clip} / w + 1) * 0.5 * size;
     return std::clamp(texels, -static_cast<double>(frame.guard), static_cast<double>(size) + frame.guard);
@@ -104,28 +104,32 @@ RasterVertex raster_vertex(const ClipVertex& v, const Frame& frame) {
   r.x = snap(window(v.x, frame.width), frame.state);
   r.y = snap(window(v.y, frame.height), frame.state);
   r.z = static_cast<float>(std::clamp((double{v.z} / w + 1) * 0.5, 0.0, 1.0));
-  r.w = v.w;
+  r.w = std::clamp(v.w, 0x1p-20f, 0x1p20f);
   r.uv = v.uv;
   r.color = v.color;
   return r;
 }
 
-bool all_inside(const std::array<ClipVertex, 3>& t, const std::array<ClipPlane, 6>& planes) {
+bool all_inside(const std::array<ClipVertex, 3>& t, const std::array<ClipPlane, 8>& planes) {
   for (const ClipPlane& p : planes)
     for (const ClipVertex& v : t)
-      if (p.x * v.x + p.y * v.y + p.z * v.z + p.w * v.w < 0) return false;
+      if (p.x * v.x + p.y * v.y + p.z * v.z + p.w * v.w + p.constant < 0) return false;
   return true;
 }
 
 }  // namespace
 
 std::int32_t snap(double x_texel, const RasterState& state) {
+  if (state.subtexel_bits < 1 || state.subtexel_bits > 16)
+    throw InputError(fmt::format("sub-texel bits: expected 1 to 16, got {}", state.subtexel_bits));
   const double scaled = x_texel * static_cast<double>(1 << state.subtexel_bits);  // exact: a power of two
   if (!(std::abs(scaled) <= 0x1p30)) throw InputError(fmt::format("position: expected at most 2^30 sub-texels, got {}", scaled));
   return static_cast<std::int32_t>(rounded(scaled, state.snap));
 }
 
 DrawList make_scene(const Mesh& mesh, const std::vector<Material>& materials, const Camera& camera, const Frame& frame) {
+  const DefaultFloatEnvironment environment;
+  validate(frame);
   check_mesh(mesh);
   const Matrix4 matrix = clip_from_object(camera, frame.width, frame.height);
   const auto planes = clip_planes(frame.width, frame.height, frame.guard);
@@ -165,6 +169,8 @@ DrawList make_scene(const Mesh& mesh, const std::vector<Material>& materials, co
 }
 
 DrawList make_uv_scene(const Mesh& mesh, const std::vector<Material>& materials, const Frame& frame) {
+  const DefaultFloatEnvironment environment;
+  validate(frame);
   check_mesh(mesh);
   DrawList list;
   ListBuilder builder(materials, list);

@@ -11,7 +11,7 @@ namespace etalon {
 
 /// How the faces of one material are shaded.
 struct Material {
-  std::shared_ptr<const Image> texture;       ///< none: vertex colours
+  std::shared_ptr<const Image> texture;  ///< none: vertex colours
   Sampler sampler{Filter::nearest, Wrap::repeat, Wrap::repeat};
   std::shared_ptr<const Image> indexing_map;  ///< set: the texture is read through this map
   Sampler map_sampler;

@@ -23,9 +23,7 @@ std::string to_string(FillRule value) {
   return "?";
 }
 
-std::string to_string(HalfRounding value) {
-  return value == HalfRounding::nearest_even ? "nearest_even" : "toward_zero";
-}
+std::string to_string(HalfRounding value) { return value == HalfRounding::nearest_even ? "nearest_even" : "toward_zero"; }
 
 std::string to_string(Filter value) { return value == Filter::nearest ? "nearest" : "linear"; }
 

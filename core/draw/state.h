@@ -54,8 +54,8 @@ enum class TargetContent : std::uint8_t {
   coordinate,    ///< interpolated uv (RG; any format but uint32)
   depth,         ///< window depth (R float32)
   margins,       ///< RGBA float32: distance to the nearest edge in sub-texels; of u·width and of v·height to the nearest texel border, in
-                 ///< texels (of (u·width − ½), … for linear); depth gap to the runner-up (+inf where there is none)
-  bound_terms,   ///< RG float32: max(|∂(u·w)/∂x| + |∂(u·w)/∂y|, the same of v·h) in texels per texel; |∂z/∂x| + |∂z/∂y|
+  ///< texels (of (u·width − ½), … for linear); depth gap to what would be drawn without the winner (+inf where there is nothing)
+  bound_terms,  ///< RG float32: max(|∂(u·w)/∂x| + |∂(u·w)/∂y|, the same of v·h) in texels per texel; |∂z/∂x| + |∂z/∂y|
 };
 
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <limits>
+#include <optional>
 
 #include "core/base/error.h"
 #include "core/draw/draw_list.h"
@@ -35,7 +36,9 @@ void validate_target(const TargetSpec& target, std::size_t n) {
     if (!std::isfinite(c)) refuse(fmt::format("target {}: expected a finite clear value, got {}", n, c));
 }
 
-void validate_frame(const Frame& frame) {
+}  // namespace
+
+void validate(const Frame& frame) {
   if (frame.width < 1 || frame.height < 1 || frame.guard < 0 || frame.width > kMaxFrame || frame.height > kMaxFrame ||
       std::max(frame.width, frame.height) + 2 * static_cast<std::int64_t>(frame.guard) > kMaxFrame)
     refuse(fmt::format("frame: expected 1 to {0} texels a side, with twice the guard at most {0}, got {1}x{2} with guard {3}", kMaxFrame,
@@ -45,6 +48,8 @@ void validate_frame(const Frame& frame) {
   for (std::size_t n = 0; n < frame.targets.size(); ++n) validate_target(frame.targets[n], n);
 }
 
+namespace {
+
 void validate_vertices(const DrawList& list, const Frame& frame) {
   const std::int64_t guard = frame.guard, bits = frame.state.subtexel_bits;
   const std::int64_t lo = -(guard << bits), x_hi = (frame.width + guard) << bits, y_hi = (frame.height + guard) << bits;
@@ -52,7 +57,8 @@ void validate_vertices(const DrawList& list, const Frame& frame) {
   for (std::size_t n = 0; n < list.vertices.size(); ++n) {
     const RasterVertex& v = list.vertices[n];
     if (v.x < lo || v.x > x_hi || v.y < lo || v.y > y_hi)
-      refuse(fmt::format("vertex {}: expected a position in [{}, {}] x [{}, {}] sub-texels, got ({}, {})", n, lo, x_hi, lo, y_hi, v.x, v.y));
+      refuse(
+          fmt::format("vertex {}: expected a position in [{}, {}] x [{}, {}] sub-texels, got ({}, {})", n, lo, x_hi, lo, y_hi, v.x, v.y));
     if (!(v.z >= 0 && v.z <= 1)) refuse(fmt::format("vertex {}: expected z in [0, 1], got {}", n, v.z));
     if (!(v.w >= 0x1p-20f && v.w <= 0x1p20f)) refuse(fmt::format("vertex {}: expected w in [2^-20, 2^20], got {}", n, v.w));
     if (!attribute_ok(v.uv.x) || !attribute_ok(v.uv.y))
@@ -66,31 +72,60 @@ void validate_vertices(const DrawList& list, const Frame& frame) {
         refuse(fmt::format("triangle {}: expected vertex indices below {}, got {}", t, list.vertices.size(), corner));
 }
 
-// Scans the texels a lookup may meet: finite, and within `limit` where their size matters.
-template <class Read>
-void validate_texels(const Image& image, std::uint32_t index, double limit, int channels, Read read) {
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x)
-      for (int c = 0; c < channels; ++c) {
-        const double value = read(x, y, c);
-        if (!(std::abs(value) <= limit))
-          refuse(fmt::format("image {}, texel ({}, {}): expected a finite number of at most {}, got {}", index, x, y, limit, value));
-      }
+// The number in channel c of a float or half texel.
+double number_at(const Image& image, int x, int y, int c) {
+  return image.format().type == ChannelType::half ? half_to_double(image.channels<std::uint16_t>(x, y)[c])
+                                                  : double{image.channels<float>(x, y)[c]};
 }
 
-void validate_image(const DrawList& list, std::size_t draw, std::uint32_t index, const char* role, double limit, int least_channels) {
+// Largest magnitude in each channel of an image; NaN counts as infinite. Bounded formats have 1.
+using ChannelMaxima = std::array<double, 4>;
+ChannelMaxima channel_maxima(const Image& image) {
+  ChannelMaxima largest{};
+  if (image.format().type != ChannelType::half && image.format().type != ChannelType::float32) return {1, 1, 1, 1};
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x)
+      for (int c = 0; c < image.format().channels; ++c) {
+        const double magnitude = std::abs(number_at(image, x, y, c));
+        if (!(magnitude <= largest[static_cast<std::size_t>(c)]))
+          largest[static_cast<std::size_t>(c)] = std::isnan(magnitude) ? std::numeric_limits<double>::infinity() : magnitude;
+      }
+  return largest;
+}
+
+// What the images of a list hold, each scanned once however many draws use it.
+class ImageRanges {
+ public:
+  explicit ImageRanges(const DrawList& list) : list_(list), maxima_(list.images.size()) {}
+
+  // Refuses where channel c exceeds limits[c], naming the first such texel.
+  void check(std::uint32_t index, const ChannelMaxima& limits) {
+    const Image& image = *list_.images[index];
+    auto& maxima = maxima_[index];
+    if (!maxima) maxima = channel_maxima(image);
+    for (std::size_t c = 0; c < static_cast<std::size_t>(image.format().channels); ++c)
+      if (!((*maxima)[c] <= limits[c])) name_texel(index, static_cast<int>(c), limits[c]);
+  }
+
+ private:
+  void name_texel(std::uint32_t index, int c, double limit) const {
+    const Image& image = *list_.images[index];
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        if (const double value = number_at(image, x, y, c); !(std::abs(value) <= limit))
+          refuse(fmt::format("image {}, texel ({}, {}): expected a finite number of at most {}, got {}", index, x, y, limit, value));
+  }
+  const DrawList& list_;
+  std::vector<std::optional<ChannelMaxima>> maxima_;
+};
+
+void validate_image(const DrawList& list, std::size_t draw, std::uint32_t index, const char* role, int least_channels) {
   if (index >= list.images.size() || list.images[index] == nullptr || list.images[index]->empty())
     refuse(fmt::format("draw {}: expected an image as {}, got none", draw, role));
   const Image& image = *list.images[index];
   if (image.format().type == ChannelType::uint32) refuse(fmt::format("draw {}: {} is uint32, which cannot be looked up", draw, role));
   if (image.format().channels < least_channels)
     refuse(fmt::format("draw {}: expected {} with at least {} channels, got {}", draw, role, least_channels, image.format().channels));
-  if (image.format().type == ChannelType::float32)
-    validate_texels(image, index, limit, image.format().channels, [&](int x, int y, int c) { return double{image.channels<float>(x, y)[c]}; });
-  if (image.format().type == ChannelType::half)
-    validate_texels(image, index, limit, image.format().channels, [&](int x, int y, int c) {
-      return half_to_double(image.channels<std::uint16_t>(x, y)[c]);
-    });
 }
 
 // |u|·size < 2^30 for all vertices of the draw: interpolation cannot leave their range.
@@ -103,33 +138,39 @@ void validate_lookup_range(const DrawList& list, const Draw& draw, std::size_t n
     }
 }
 
-void validate_draw(const DrawList& list, std::size_t n) {
+void validate_draw(const DrawList& list, std::size_t n, ImageRanges& ranges) {
   const Draw& draw = list.draws[n];
   if (draw.shading == Shading::vertex_color) return;
-  constexpr double kMaxHalf = 65504, kMaxTexel = 0x1p40;
-  const auto texel_limit = [&](std::uint32_t image, const Sampler& sampler) {
-    const bool half = image < list.images.size() && list.images[image] != nullptr && list.images[image]->format().type == ChannelType::half;
-    return half ? kMaxHalf : sampler.filter == Filter::linear ? kMaxTexel : static_cast<double>(std::numeric_limits<float>::max());
+  const auto texel_limit = [](const Sampler& sampler) {
+    return sampler.filter == Filter::linear ? 0x1p40 : static_cast<double>(std::numeric_limits<float>::max());
   };
-  validate_image(list, n, draw.texture, "texture", texel_limit(draw.texture, draw.sampler), 1);
+  validate_image(list, n, draw.texture, "texture", 1);
+  const double texture_limit = texel_limit(draw.sampler);
+  ranges.check(draw.texture, {texture_limit, texture_limit, texture_limit, texture_limit});
   const Image& texture = *list.images[draw.texture];
   if (draw.shading == Shading::texture) return validate_lookup_range(list, draw, n, texture);
-  const double coordinate_limit = std::min(kMaxTexel, 0x1p30 / std::max(texture.width(), texture.height()) * (1 - 0x1p-24));
-  validate_image(list, n, draw.indexing_map, "indexing map", std::min(coordinate_limit, texel_limit(draw.indexing_map, draw.map_sampler)), 2);
+  validate_image(list, n, draw.indexing_map, "indexing map", 2);
+  // |u|·width < 2^30, so at most the float32 below; the other channels are not used as coordinates.
+  const double map_limit = texel_limit(draw.map_sampler);
+  const auto coordinate_limit = [](int size) { return std::min(0x1p40, 0x1p30 / size * (1 - 0x1p-24)); };
+  ranges.check(draw.indexing_map, {std::min(map_limit, coordinate_limit(texture.width())),
+                                   std::min(map_limit, coordinate_limit(texture.height())), map_limit, map_limit});
   validate_lookup_range(list, draw, n, *list.images[draw.indexing_map]);
 }
 
 }  // namespace
 
 void validate(const DrawList& list, const Frame& frame) {
-  validate_frame(frame);
+  validate(frame);
   validate_vertices(list, frame);
   std::uint64_t next = 0;
+  ImageRanges ranges(list);
   for (std::size_t n = 0; n < list.draws.size(); ++n) {
-    if (list.draws[n].first_triangle != next) refuse(fmt::format("draw {}: expected to begin at triangle {}, got {}", n, next, list.draws[n].first_triangle));
+    if (list.draws[n].first_triangle != next)
+      refuse(fmt::format("draw {}: expected to begin at triangle {}, got {}", n, next, list.draws[n].first_triangle));
     next += list.draws[n].triangle_count;
     if (next > list.triangles.size()) refuse(fmt::format("draw {}: ends at triangle {} of {}", n, next, list.triangles.size()));
-    validate_draw(list, n);
+    validate_draw(list, n, ranges);
   }
   if (next != list.triangles.size()) refuse(fmt::format("the draws end at triangle {} of {}", next, list.triangles.size()));
   if (list.triangles.size() >= kNoTriangle) refuse("more than 2^32 - 2 triangles");

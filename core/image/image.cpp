@@ -29,8 +29,7 @@ std::string to_string(PixelFormat format) {
 Image::Image(int width, int height, PixelFormat format) : width_(width), height_(height), format_(format) {
   if (width < 1 || height < 1 || width > kMaxImageSize || height > kMaxImageSize)
     throw InputError(fmt::format("image size: expected 1x1 to {0}x{0}, got {1}x{2}", kMaxImageSize, width, height));
-  if (format.channels < 1 || format.channels > 4)
-    throw InputError(fmt::format("image channels: expected 1 to 4, got {}", format.channels));
+  if (format.channels < 1 || format.channels > 4) throw InputError(fmt::format("image channels: expected 1 to 4, got {}", format.channels));
   bytes_.resize(texel_count() * static_cast<std::size_t>(bytes_per_texel(format)));
 }
 
@@ -45,10 +44,8 @@ std::string Image::sha256() const {
 Image flipped_rows(const Image& image) {
   if (image.empty()) return image;
   Image result(image.width(), image.height(), image.format());
-  const std::size_t row_bytes =
-      static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(bytes_per_texel(image.format()));
-  for (int y = 0; y < image.height(); ++y)
-    std::memcpy(result.texel(0, y), image.texel(0, image.height() - 1 - y), row_bytes);
+  const std::size_t row_bytes = static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(bytes_per_texel(image.format()));
+  for (int y = 0; y < image.height(); ++y) std::memcpy(result.texel(0, y), image.texel(0, image.height() - 1 - y), row_bytes);
   return result;
 }
 

@@ -36,9 +36,13 @@ class Image {
 
   /// Channel values of texel (x, y) as the stored type: unorm8/srgb8 → uint8_t, unorm16/half → uint16_t, float32 → float, uint32 → uint32_t.
   template <class T>
-  [[nodiscard]] const T* channels(int x, int y) const { return reinterpret_cast<const T*>(texel(x, y)); }
+  [[nodiscard]] const T* channels(int x, int y) const {
+    return reinterpret_cast<const T*>(texel(x, y));
+  }
   template <class T>
-  [[nodiscard]] T* channels(int x, int y) { return reinterpret_cast<T*>(texel(x, y)); }
+  [[nodiscard]] T* channels(int x, int y) {
+    return reinterpret_cast<T*>(texel(x, y));
+  }
 
   /// sha256 over format, size and bytes: equal exactly when the images are.
   [[nodiscard]] std::string sha256() const;

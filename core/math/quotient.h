@@ -12,7 +12,7 @@
 
 namespace etalon {
 
-/// The number n / (d · 2^k), d > 0. Widths: |n|·2^max(0,−k) and d·2^(54 + max(0,k)) must fit (value_width.h).
+/// The number n / (d · 2^k), d > 0. Widths: |n|·2^max(0,−k) and d·2^(54 + max(0,k)) must fit (raster/triangle_setup.cpp).
 template <int kLimbs>
 struct Quotient {
   WideInt<kLimbs> n;
@@ -77,7 +77,7 @@ template <int kLimbs>
   return result * t_sign;
 }
 
-/// floor of the quotient; |quotient| < 2^50.
+/// floor of the quotient; |quotient| < 2^49, so that the enclosure is narrower than 1.
 template <int kLimbs>
 [[nodiscard]] std::int64_t floor_of(const Quotient<kLimbs>& q, Interval v) {
   const double lo = std::floor(v.lo), hi = std::floor(v.hi);
@@ -106,9 +106,7 @@ template <int kLimbs>
   };
   const std::uint16_t lo = convert(v.lo), hi = convert(v.hi);
   if (lo == hi) return lo;
-  const auto value = [](std::uint16_t h) {
-    return (h & 0x7FFF) == 0x7C00 ? ((h & 0x8000) != 0 ? -65536.0 : 65536.0) : half_to_double(h);
-  };
+  const auto value = [](std::uint16_t h) { return (h & 0x7FFF) == 0x7C00 ? ((h & 0x8000) != 0 ? -65536.0 : 65536.0) : half_to_double(h); };
   const double a = value(lo), b = value(hi);
   if (toward_zero) {
     // The border is the one further from zero: reached means taken.

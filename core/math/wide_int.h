@@ -1,6 +1,6 @@
 // Signed integers of fixed width, without allocation: the numerators and denominators of exact rasterization.
 // Two's complement, little-endian limbs. Arithmetic wraps modulo 2^(64·kLimbs): callers choose kLimbs from proven bit counts
-// (raster/value_width.h), so wrapping never happens; that proof is what the judge's suites test.
+// (raster/triangle_setup.cpp), so wrapping never happens; that proof is what the judge's suites test.
 #pragma once
 
 #include <array>

@@ -23,11 +23,11 @@ struct Wedge {
 };
 
 struct Mesh {
-  std::vector<Vec3f> positions;                ///< #V, model units
-  std::vector<Vec4f> colors;                   ///< #V or empty: RGBA in [0, 1], as stored in the file (no colour conversion)
-  std::vector<Wedge> wedges;                   ///< #W
-  std::vector<std::array<WedgeId, 3>> faces;   ///< #F, counter-clockwise seen from outside
-  std::vector<std::uint32_t> face_materials;   ///< #F or empty (all faces of material 0): index into the model's materials
+  std::vector<Vec3f> positions;               ///< #V, model units
+  std::vector<Vec4f> colors;                  ///< #V or empty: RGBA in [0, 1], as stored in the file (no colour conversion)
+  std::vector<Wedge> wedges;                  ///< #W
+  std::vector<std::array<WedgeId, 3>> faces;  ///< #F, counter-clockwise seen from outside
+  std::vector<std::uint32_t> face_materials;  ///< #F or empty (all faces of material 0): index into the model's materials
   bool has_uv = false;
 
   [[nodiscard]] std::size_t vertex_count() const { return positions.size(); }

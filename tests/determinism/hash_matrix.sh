@@ -2,7 +2,8 @@
 # hash_matrix.sh SOURCE BUILD PROGRAM: the same bytes for every compiler, optimisation level and thread count.
 # PROGRAM is etalon_hash_scenes as BUILD made it. It is built again by g++ at -O0; with ETALON_FULL set by g++ and
 # clang++ at -O0, -O3, and -O2 -march=native.
-# Exit code 0: one hash; 1: more than one, each printed with who made it; 77: nothing to compare with.
+# Exit code 0: one hash, the golden one; 1: another or more than one, each printed with who made it; 77: nothing to compare with.
+# The golden hash changes only with kRasterContractVersion (or with the scenes), and a line in CHANGELOG.md.
 set -u
 source_dir=$1 build_dir=$2 program=$3
 
@@ -44,4 +45,9 @@ if [ "$distinct" -ne 1 ] || printf '%s\n' "${rows[@]}" | grep -q '^failed'; then
   echo "[etalon] failed: hash_matrix: $distinct different hashes"
   exit 1
 fi
-echo "hash_matrix: ${#rows[@]} runs, one hash"
+golden=$(cut -d' ' -f1 "$source_dir/data/golden/hash_scenes.sha256")
+if [ "${rows[0]%% *}" != "$golden" ]; then
+  echo "[etalon] failed: hash_matrix: expected the golden hash $golden (data/golden/hash_scenes.sha256)"
+  exit 1
+fi
+echo "hash_matrix: ${#rows[@]} runs, one hash, the golden one"

@@ -39,7 +39,8 @@ TEST_CASE("one vertex behind the near plane: a quadrilateral whose new vertices 
 
 TEST_CASE("the guard plane lies guard texels outside the frame") {
   // x + w·(1 + 2·guard/W) = 0 at x_window = −guard.
-  const auto polygon = clip_triangle({vertex(-100, 0, 0, 1, 0), vertex(0, -0.5f, 0, 1, 1), vertex(0, 0.5f, 0, 1, 2)}, clip_planes(100, 100, 50));
+  const auto polygon =
+      clip_triangle({vertex(-100, 0, 0, 1, 0), vertex(0, -0.5f, 0, 1, 1), vertex(0, 0.5f, 0, 1, 2)}, clip_planes(100, 100, 50));
   REQUIRE(polygon.size() == 4);
   float least = 0;
   for (const ClipVertex& v : polygon) least = std::min(least, v.x);

@@ -13,8 +13,7 @@ namespace {
 Mesh quad(float size) {
   Mesh mesh;
   mesh.positions = {{-size, -size, 0}, {size, -size, 0}, {size, size, 0}, {-size, size, 0}};
-  for (std::uint32_t n = 0; n < 4; ++n)
-    mesh.wedges.push_back({VertexId(n), {n == 1 || n == 2 ? 1.0f : 0.0f, n >= 2 ? 1.0f : 0.0f}});
+  for (std::uint32_t n = 0; n < 4; ++n) mesh.wedges.push_back({VertexId(n), {n == 1 || n == 2 ? 1.0f : 0.0f, n >= 2 ? 1.0f : 0.0f}});
   mesh.faces = {{WedgeId(0u), WedgeId(1u), WedgeId(2u)}, {WedgeId(0u), WedgeId(2u), WedgeId(3u)}};
   mesh.has_uv = true;
   return mesh;
@@ -47,7 +46,14 @@ TEST_CASE("each snap rounding, at and around ties") {
   CHECK(row(SnapRounding::half_away) == std::array<int, 6>{2, -2, 1, -1, 1, -1});
   CHECK(row(SnapRounding::toward_zero) == std::array<int, 6>{1, -1, 0, 0, 0, 0});
   CHECK(row(SnapRounding::floor) == std::array<int, 6>{1, -2, 0, -1, 0, -1});
-  CHECK(snapped(SnapRounding::nearest_even, 0.24999999999999997) == 0);
+  // One double short of a tie is no tie: −0x1.fffffffffffffp-2 half texels.
+  for (const SnapRounding r : {SnapRounding::nearest_even, SnapRounding::half_up, SnapRounding::half_away, SnapRounding::toward_zero}) {
+    CHECK(snapped(r, 0x1.fffffffffffffp-3) == 0);
+    CHECK(snapped(r, -0x1.fffffffffffffp-3) == 0);
+  }
+  state.subtexel_bits = 40;
+  CHECK_THROWS_AS((void)snap(0.5, state), InputError);
+  state.subtexel_bits = 1;
   CHECK_THROWS_AS((void)snap(1e12, state), InputError);
   CHECK_THROWS_AS((void)snap(std::numeric_limits<double>::quiet_NaN(), state), InputError);
 }
@@ -72,7 +78,28 @@ TEST_CASE("a mesh that leaves the frame by far is cut to the guard and stays val
   const DrawList list = make_scene(quad(1000), {Material{}}, camera_at(4), frame);
   CHECK(list.triangles.size() > 2);
   validate(list, frame);
-  CHECK(make_scene(quad(1), {Material{}}, [] { Camera c = camera_at(4); c.target = {0, 0, 8}; return c; }(), frame).triangles.empty());
+  CHECK(make_scene(
+            quad(1), {Material{}},
+            [] {
+              Camera c = camera_at(4);
+              c.target = {0, 0, 8};
+              return c;
+            }(),
+            frame)
+            .triangles.empty());
+}
+
+TEST_CASE("a far plane 10^7 times the near one leaves no vertex out of the range of w") {
+  Mesh mesh;
+  mesh.positions = {{-1000, -1, -1}, {1000, -1, -1}, {0, -1, -3e6f}};
+  for (std::uint32_t n = 0; n < 3; ++n) mesh.wedges.push_back({VertexId(n), {0, 0}});
+  mesh.faces = {{WedgeId(0u), WedgeId(1u), WedgeId(2u)}};
+  Camera camera;
+  camera.eye = {0, 0, 0}, camera.target = {0, 0, -1}, camera.near = 0.1, camera.far = 1e6;
+  Frame frame;
+  const DrawList list = make_scene(mesh, {Material{}}, camera, frame);
+  CHECK(!list.triangles.empty());
+  validate(list, frame);
 }
 
 TEST_CASE("in texture space the uv are the positions") {
@@ -95,6 +122,13 @@ TEST_CASE("what a scene refuses") {
   mesh.faces[0][0] = WedgeId(99u);
   CHECK_THROWS_AS((void)make_scene(mesh, {Material{}}, camera_at(4), frame), InputError);
   mesh = quad(1);
+  mesh.face_materials = {0};
+  CHECK_THROWS_AS((void)make_scene(mesh, {Material{}}, camera_at(4), frame), InputError);
+  mesh = quad(1);
+  frame.width = 0;
+  CHECK_THROWS_AS((void)make_scene(mesh, {Material{}}, camera_at(4), frame), InputError);
+  CHECK_THROWS_AS((void)make_uv_scene(mesh, {Material{}}, frame), InputError);
+  frame.width = 64;
   mesh.colors.resize(1);
   CHECK_THROWS_AS((void)make_scene(mesh, {Material{}}, camera_at(4), frame), InputError);
 }

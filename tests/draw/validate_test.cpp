@@ -96,6 +96,18 @@ TEST_CASE("draws and images") {
   refuses("source faces", [](Scene& s) { s.list.source_faces = {0, 1}; });
 }
 
+TEST_CASE("an indexing map is bounded by the texture's own sides, its other channels only by being finite") {
+  Scene s = good();
+  auto map = std::make_shared<Image>(2, 2, kRgba32f);
+  map->channels<float>(1, 1)[0] = 0x1p25f;  // times a width of 1
+  map->channels<float>(1, 1)[3] = 0x1p100f;
+  s.list.images = {std::make_shared<Image>(1, 1024, kRgba8), map};
+  s.list.draws[0].shading = Shading::indexed, s.list.draws[0].indexing_map = 1;
+  validate(s.list, s.frame);
+  map->channels<float>(1, 1)[1] = 0x1p25f;  // times a height of 1024
+  CHECK_THROWS_AS(validate(s.list, s.frame), InputError);
+}
+
 TEST_CASE("targets take only their formats") {
   refuses("target 0 (color)", [](Scene& s) { s.frame.targets = {{TargetContent::color, kR32ui}}; });
   refuses("target 0 (triangle_id)", [](Scene& s) { s.frame.targets = {{TargetContent::triangle_id, kR32f}}; });

@@ -34,12 +34,12 @@ std::vector<Case> cases() {
   };
   for (int n = 0; n < 3000; ++n) {
     const int nudge = static_cast<int>(rng.below(3)) - 1;
-    add(rng.between(-70000, 70000), 1, static_cast<int>(rng.below(20)), nudge);                       // few bits: ties of half, unorm
-    add(rng.between(-(1 << 25), 1 << 25), 1, static_cast<int>(rng.below(60)) - 5, nudge);             // 25 bits: ties of float32
-    add(rng.between(-2000, 2000), 510, 0, nudge);                                                     // halves of 1/255
-    add(rng.between(-200000, 200000), 131070, 0, nudge);                                              // halves of 1/65535
+    add(rng.between(-70000, 70000), 1, static_cast<int>(rng.below(20)), nudge);            // few bits: ties of half, unorm
+    add(rng.between(-(1 << 25), 1 << 25), 1, static_cast<int>(rng.below(60)) - 5, nudge);  // 25 bits: ties of float32
+    add(rng.between(-2000, 2000), 510, 0, nudge);                                          // halves of 1/255
+    add(rng.between(-200000, 200000), 131070, 0, nudge);                                   // halves of 1/65535
     add(rng.between(-1000000000000, 1000000000000), rng.between(1, 1000000000000), static_cast<int>(rng.below(80)) - 40, nudge);
-    add(rng.between(-1000, 1000), 8, 146, nudge);                                                     // float32 subnormals
+    add(rng.between(-1000, 1000), 8, 146, nudge);  // float32 subnormals
   }
   return all;
 }

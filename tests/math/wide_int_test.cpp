@@ -6,9 +6,9 @@
 
 #include "core/base/rng.h"
 
+using boost::multiprecision::cpp_int;
 using etalon::Rng;
 using etalon::WideInt;
-using boost::multiprecision::cpp_int;
 
 namespace {
 
@@ -38,8 +38,8 @@ cpp_int to_cpp(const WideInt<kLimbs>& w) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("wide integers agree with Boost on every operation", Limbs, std::integral_constant<int, 2>, std::integral_constant<int, 4>,
-                   std::integral_constant<int, 16>) {
+TEST_CASE_TEMPLATE("wide integers agree with Boost on every operation", Limbs, std::integral_constant<int, 2>,
+                   std::integral_constant<int, 4>, std::integral_constant<int, 16>) {
   constexpr int kLimbs = Limbs::value;
   Rng rng(7);
   for (int n = 0; n < 20000; ++n) {

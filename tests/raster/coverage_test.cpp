@@ -81,7 +81,8 @@ TEST_CASE("a fan over a jittered ring covers each sample exactly once, in every 
     for (int n = 0; n < 8; ++n) ring.push_back(point(hi, lo + (hi - lo) * n / 8));
     for (int n = 0; n < 8; ++n) ring.push_back(point(hi - (hi - lo) * n / 8, hi));
     for (int n = 0; n < 8; ++n) ring.push_back(point(lo, hi - (hi - lo) * n / 8));
-    const RasterVertex middle = round % 3 == 0 ? point(16 * one + one / 2, 16 * one + one / 2) : point(rng.between(lo, hi), rng.between(lo, hi));
+    const RasterVertex middle =
+        round % 3 == 0 ? point(16 * one + one / 2, 16 * one + one / 2) : point(rng.between(lo, hi), rng.between(lo, hi));
     std::vector<RasterVertex> fan;
     for (std::size_t n = 0; n < ring.size(); ++n) {
       fan.push_back(middle), fan.push_back(ring[n]), fan.push_back(ring[(n + 1) % ring.size()]);

@@ -30,13 +30,13 @@ TEST_CASE("unorm clamps and rounds to nearest") {
 }
 
 TEST_CASE("half rounds or truncates, and overflows as the state says") {
-  CHECK(stored<std::uint16_t>(1 + 0x1p-11f, ChannelType::half) == 0x3C00);             // tie, even
-  CHECK(stored<std::uint16_t>(1 + 0x3p-11f, ChannelType::half) == 0x3C02);             // tie, even above
+  CHECK(stored<std::uint16_t>(1 + 0x1p-11f, ChannelType::half) == 0x3C00);  // tie, even
+  CHECK(stored<std::uint16_t>(1 + 0x3p-11f, ChannelType::half) == 0x3C02);  // tie, even above
   CHECK(stored<std::uint16_t>(1 + 0x1.8p-10f, ChannelType::half, HalfRounding::toward_zero) == 0x3C01);
   CHECK(stored<std::uint16_t>(65520, ChannelType::half) == 0x7C00);
   CHECK(stored<std::uint16_t>(65519, ChannelType::half) == 0x7BFF);
   CHECK(stored<std::uint16_t>(1e6f, ChannelType::half, HalfRounding::toward_zero) == 0x7BFF);
-  CHECK(stored<std::uint16_t>(-0x1p-26f, ChannelType::half) == 0);                     // rounds to zero: +0
+  CHECK(stored<std::uint16_t>(-0x1p-26f, ChannelType::half) == 0);  // rounds to zero: +0
 }
 
 TEST_CASE("float32 keeps a constant; noise below 2^-40 and minus zero enter as zero") {
@@ -59,10 +59,11 @@ TEST_CASE("srgb8 encodes colours by the thresholds and leaves alpha linear") {
 
 TEST_CASE("clears go through the same storage") {
   raster::CpuRenderer renderer;
-  const auto images = renderer.render(list_of({}), frame_of(2, 1, {{TargetContent::color, kRgba8, {0.5f, 2, -1, 1}},
-                                                                  {TargetContent::triangle_id, kR32ui},
-                                                                  {TargetContent::depth, kR32f},
-                                                                  {TargetContent::margins, kRgba32f}}));
+  const auto images = renderer.render(list_of({}), frame_of(2, 1,
+                                                            {{TargetContent::color, kRgba8, {0.5f, 2, -1, 1}},
+                                                             {TargetContent::triangle_id, kR32ui},
+                                                             {TargetContent::depth, kR32f},
+                                                             {TargetContent::margins, kRgba32f}}));
   CHECK(images[0].channels<std::uint8_t>(1, 0)[0] == 128);
   CHECK(images[0].channels<std::uint8_t>(1, 0)[1] == 255);
   CHECK(images[0].channels<std::uint8_t>(1, 0)[2] == 0);

@@ -45,9 +45,10 @@ TEST_CASE("depth is affine although w differs; coordinates and barycentrics are 
   t[0].w = 1, t[1].w = 2, t[2].w = 4;
   t[0].z = 0, t[1].z = 0.5f, t[2].z = 0.25f;
   raster::CpuRenderer renderer;
-  const auto images = renderer.render(list_of(t), frame_of(1, 1, {{TargetContent::depth, kR32f},
-                                                                 {TargetContent::coordinate, kRg32f},
-                                                                 {TargetContent::barycentrics, {ChannelType::float32, 3}}}));
+  const auto images = renderer.render(list_of(t), frame_of(1, 1,
+                                                           {{TargetContent::depth, kR32f},
+                                                            {TargetContent::coordinate, kRg32f},
+                                                            {TargetContent::barycentrics, {ChannelType::float32, 3}}}));
   CHECK(images[0].channels<float>(0, 0)[0] == 0.1875f);
   // E·w_j·w_k = ½·8, ¼·4, ¼·2 = 4, 1, ½ of 5.5.
   CHECK(images[1].channels<float>(0, 0)[0] == static_cast<float>(2.0 / 11));
@@ -66,8 +67,8 @@ TEST_CASE("margins: edge, texel borders, depth gap") {
   const auto images = renderer.render(list, frame);
   const float* m = images[0].channels<float>(1, 2);
   CHECK(m[0] == 1.5f * 256);
-  CHECK(m[1] == 0.25f);    // u·4 = 0.75
-  CHECK(m[2] == 0.375f);   // v·2 = 0.625
+  CHECK(m[1] == 0.25f);   // u·4 = 0.75
+  CHECK(m[2] == 0.375f);  // v·2 = 0.625
   CHECK(m[3] == 0.5f);
   // Texel (3, 3): centre (3.5, 3.5), 1 from the hypotenuse's x + y = 8 along both axes: 1/√2 texel.
   CHECK(images[0].channels<float>(3, 3)[0] == static_cast<float>(256 / std::sqrt(2.0)));
