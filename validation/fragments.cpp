@@ -21,7 +21,8 @@ bool owns_edge(std::int64_t dx, std::int64_t dy, FillRule rule) {
 // Centre of the device's viewport on one axis: the smallest power of two (>= 2) that holds frame and guard, placed by whole texels.
 double viewport_center(int frame, int guard) {
   const int extent = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(2, frame + 2 * guard))));
-  return extent / 2 - (extent - frame) / 2;
+  const int center = extent / 2 - (extent - frame) / 2;
+  return center;
 }
 
 // With equal w the device is sent w = 1; then ndc, product and sum are all float32 numbers if position and offset from the centre are.

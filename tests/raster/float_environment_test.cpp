@@ -28,16 +28,17 @@ DrawList make_sensitive_list() {
 
 // Made once, in the default environment.
 const DrawList& sensitive_list() {
-  static const DrawList list = make_sensitive_list();
-  return list;
+  static const DrawList kList = make_sensitive_list();
+  return kList;
 }
 
 const Frame& sensitive_frame() {
-  static const Frame frame = frame_of(3, 3, {{TargetContent::color, kR32f},
-                                             {TargetContent::depth, kR32f},
-                                             {TargetContent::coordinate, kRg32f},
-                                             {TargetContent::barycentrics, {ChannelType::float32, 3}}});
-  return frame;
+  static const Frame kFrame = frame_of(3, 3,
+                                       {{TargetContent::color, kR32f},
+                                        {TargetContent::depth, kR32f},
+                                        {TargetContent::coordinate, kRg32f},
+                                        {TargetContent::barycentrics, {ChannelType::float32, 3}}});
+  return kFrame;
 }
 
 std::vector<Image> rendered() {

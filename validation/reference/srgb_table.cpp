@@ -57,13 +57,13 @@ int compare_srgb_curve(int numerator, int denominator, const Fraction& y) {
 }
 
 const std::array<float, 256>& srgb_decode() {
-  static const std::array<float, 256> table = make_decode();
-  return table;
+  static const std::array<float, 256> kTable = make_decode();
+  return kTable;
 }
 
 const std::array<float, 255>& srgb_thresholds() {
-  static const std::array<float, 255> table = make_thresholds();
-  return table;
+  static const std::array<float, 255> kTable = make_thresholds();
+  return kTable;
 }
 
 }  // namespace etalon::validation::reference

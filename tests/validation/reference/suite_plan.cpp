@@ -93,9 +93,9 @@ std::vector<Block> blocks_of(Suite suite, Length length) {
 }
 
 const std::vector<Suite>& all_suites() {
-  static const std::vector<Suite> suites{Suite::mass,    Suite::mass_exact, Suite::judge,  Suite::lattice,
-                                         Suite::tilings, Suite::frames,     Suite::threads};
-  return suites;
+  static const std::vector<Suite> kSuites{Suite::mass,    Suite::mass_exact, Suite::judge,  Suite::lattice,
+                                          Suite::tilings, Suite::frames,     Suite::threads};
+  return kSuites;
 }
 
 const char* to_string(Suite suite) {
