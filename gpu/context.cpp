@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <optional>
+#include <string_view>
 
 #include <fmt/core.h>
 
@@ -25,6 +26,12 @@ class DriverChoice {
                       to_string(*chosen_), to_string(options.driver)));
     }
     if (options.driver != Driver::device_default) setenv("GALLIUM_DRIVER", to_string(options.driver).c_str(), 1);
+    // Mesa 22.3's OSMesa crashes on a name it does not know.
+    const char* driver = std::getenv("GALLIUM_DRIVER");
+    if (driver != nullptr && *driver != '\0' && std::string_view(driver) != "llvmpipe" && std::string_view(driver) != "softpipe") {
+      throw UnavailableError(
+          fmt::format("OpenGL: expected llvmpipe or softpipe in the environment variable GALLIUM_DRIVER, got '{}'", driver));
+    }
     if (options.threads >= 0) setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   }

@@ -151,6 +151,7 @@ ETALON_GL_CONSTANTS(ETALON_GL_DECLARE_CONSTANT)
   F(void, enable_vertex_attrib_array, EnableVertexAttribArray, (Uint index)) \
   F(void, vertex_attrib_pointer, VertexAttribPointer, \
     (Uint index, Int size, Enum type, Boolean normalized, Sizei stride_bytes, const void* offset)) \
+  F(void, vertex_attrib_i_pointer, VertexAttribIPointer, (Uint index, Int size, Enum type, Sizei stride_bytes, const void* offset)) \
   F(void, gen_renderbuffers, GenRenderbuffers, (Sizei count, Uint* ids)) \
   F(void, delete_renderbuffers, DeleteRenderbuffers, (Sizei count, const Uint* ids)) \
   F(void, bind_renderbuffer, BindRenderbuffer, (Enum target, Uint id)) \
@@ -181,8 +182,7 @@ ETALON_GL_CONSTANTS(ETALON_GL_DECLARE_CONSTANT)
   F(void, delete_program, DeleteProgram, (Uint program)) \
   F(void, use_program, UseProgram, (Uint program)) \
   F(Int, get_uniform_location, GetUniformLocation, (Uint program, const Char* name)) \
-  F(void, uniform_1i, Uniform1i, (Int location, Int value)) \
-  F(void, uniform_1ui, Uniform1ui, (Int location, Uint value))
+  F(void, uniform_1i, Uniform1i, (Int location, Int value))
 // clang-format on
 
 /// The functions of one context's library; every member is set once load_api() has returned.

@@ -56,6 +56,9 @@ GlPipeline::GlPipeline(Context& context) : context_(context), gl_(context.gl()) 
   attribute(kPositionLocation, 4, offsetof(GlVertex, position));
   attribute(kUvLocation, 2, offsetof(GlVertex, uv));
   attribute(kColorLocation, 4, offsetof(GlVertex, color));
+  gl_.enable_vertex_attrib_array(kIdentityLocation);
+  gl_.vertex_attrib_i_pointer(kIdentityLocation, 2, gl::kUnsignedInt, sizeof(GlVertex),
+                              reinterpret_cast<const void*>(offsetof(GlVertex, identity)));
   gl::check_error(gl_, "setting up the vertex buffer");
 }
 
@@ -160,7 +163,6 @@ void GlPipeline::draw_triangles(const DrawList& list, const Frame& frame, bool s
       const gl::Uint program = program_for(shaded ? draw->shading : Shading::vertex_color, frame.targets);
       if (shaded) bind_textures(list, *draw, textures);
       gl_.use_program(program);
-      gl_.uniform_1ui(gl_.get_uniform_location(program, "first_triangle"), first);
       gl_.draw_arrays(gl::kTriangles, static_cast<gl::Int>(3 * (t - first)), static_cast<gl::Sizei>(3 * (draw_end - t)));
       t = draw_end;
     }
@@ -197,7 +199,8 @@ void GlPipeline::fill_buffer(const DrawList& list, const Frame& frame, std::uint
         const RasterVertex& v = triangle[k];
         staging_[3 * i + k] = {{clip[k].x, clip[k].y, clip[k].z, clip[k].w},
                                {canonical(v.uv.x), canonical(v.uv.y)},
-                               {canonical(v.color.x), canonical(v.color.y), canonical(v.color.z), canonical(v.color.w)}};
+                               {canonical(v.color.x), canonical(v.color.y), canonical(v.color.z), canonical(v.color.w)},
+                               {static_cast<std::uint32_t>(first + i), static_cast<std::uint32_t>(k)}};
       }
     }
   });

@@ -60,6 +60,7 @@ class GlPipeline {
     float position[4];
     float uv[2];
     float color[4];
+    std::uint32_t identity[2];  ///< triangle id, corner
   };
 
   Context& context_;

@@ -25,7 +25,7 @@ std::string vertex_shader_source() {
 layout(location = 0) in vec4 position;
 layout(location = 1) in vec2 uv;
 layout(location = 2) in vec4 color;
-uniform uint first_triangle;
+layout(location = 3) in uvec2 identity;
 smooth out vec2 v_uv;
 smooth out vec4 v_color;
 smooth out vec3 v_barycentrics;
@@ -34,9 +34,9 @@ void main() {
   gl_Position = position;
   v_uv = uv;
   v_color = color;
-  uint corner = uint(gl_VertexID) % 3u;
+  uint corner = identity.y;
   v_barycentrics = vec3(corner == 0u, corner == 1u, corner == 2u);
-  v_triangle = first_triangle + uint(gl_VertexID) / 3u;
+  v_triangle = identity.x;
 }
 )";
 }

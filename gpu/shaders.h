@@ -13,11 +13,12 @@ namespace etalon::gpu {
 inline constexpr unsigned kPositionLocation = 0;
 inline constexpr unsigned kUvLocation = 1;
 inline constexpr unsigned kColorLocation = 2;
+inline constexpr unsigned kIdentityLocation = 3;  ///< triangle id and corner, unsigned integers
 inline constexpr int kImageUnit = 0;
 inline constexpr int kIndexingMapUnit = 1;
 
-/// Passes uv and colour on; the id and the barycentric corners follow from gl_VertexID, since triangles share no vertices:
-/// `first_triangle` is the id of the buffer's first triangle. The three vertices have the same id: the provoking one cannot matter.
+/// Passes uv, colour, id and barycentric corner on; triangles share no vertices. The three vertices have the same id: the provoking one cannot
+/// matter. Not from gl_VertexID: softpipe begins it anew with each batch of vertices.
 [[nodiscard]] std::string vertex_shader_source();
 
 /// One output per target that is not depth, in order, at consecutive locations.

@@ -197,16 +197,19 @@ TexelVerdict TexelExplainer::explain(int x, int y) {
     apply(check_values(x, y, golden, 0));
     if (verdict.texel_class == TexelClass::unexplained) {
       gather();
+      // Values that the other triangle's bound cannot judge make the texel unbounded, unless a later choice is a proven tie.
       const auto try_other = [&](std::uint32_t other) {
         if (other == golden) return false;
         const auto tie = depth_tie(covering, golden, other);
         if (!tie) return false;
         const Outcome values = check_values(x, y, other, 0);
-        if (values.texel_class > TexelClass::tie) return false;
-        apply(*tie);
+        if (values.texel_class == TexelClass::unexplained) return false;
+        const bool judged = values.texel_class <= TexelClass::tie;
+        if (!judged && verdict.texel_class == TexelClass::unbounded) return false;
+        apply(judged ? *tie : values);
         verdict.target = values.target;
         verdict.candidate_triangle = other;
-        return true;
+        return judged;
       };
       bool found = false;
       for (std::size_t k = 0; k < covering.size() && !found; ++k) found = try_other(covering[k].triangle);

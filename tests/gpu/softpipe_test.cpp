@@ -1,6 +1,7 @@
 // Mesa's second rasterizer, in a process of its own: other sub-texel bits, another fill rule, the same renderer.
 // Its edges are evaluated in float32, so no exact coverage is claimed for it.
 #include <memory>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -60,4 +61,26 @@ TEST_CASE("softpipe copies a texture and fills all targets") {
   CHECK(*images[1].channels<std::uint32_t>(20, 3) == 0);
   CHECK(*images[1].channels<std::uint32_t>(3, 20) == 1);
   CHECK(*images[2].channels<float>(20, 3) == 0.5f);
+}
+
+TEST_CASE("ids stay right beyond one batch of softpipe's vertices") {
+  const std::unique_ptr<GlRenderer> renderer = softpipe_or_skip("softpipe ids");
+  if (!renderer) return;
+  // One triangle around each of 64 × 64 centres, in 4 sub-texel bits.
+  DrawList list;
+  for (std::int32_t n = 0; n < 64 * 64; ++n) {
+    const std::int32_t x = n % 64 * 16, y = n / 64 * 16;
+    const auto first = static_cast<std::uint32_t>(list.vertices.size());
+    for (const auto& [dx, dy] : {std::pair{0, 0}, std::pair{16, 0}, std::pair{8, 16}}) {
+      RasterVertex v;
+      v.x = x + dx, v.y = y + dy, v.z = 0.5f;
+      list.vertices.push_back(v);
+    }
+    list.triangles.push_back({first, first + 1, first + 2});
+  }
+  list.draws = {{.triangle_count = 64 * 64}};
+  const Image ids = renderer->render(list, frame_of(*renderer, 64, 64, 16, {kIdTarget}))[0];
+  std::uint32_t wrong = 0;
+  for (std::uint32_t n = 0; n < 64 * 64; ++n) wrong += ids.channels<std::uint32_t>(0, 0)[n] != n ? 1 : 0;
+  CHECK(wrong == 0);
 }
