@@ -25,8 +25,8 @@ struct DiagnosisOptions {
   double isolated_share = 1e-5;
 };
 
-/// Hypotheses sorted by share, the best first (ties: the order of the list above); those which explain nothing are left out.
-/// Empty where nothing is unexplained or nothing explains it. `diff` must hold its class image (InputError).
+/// Hypotheses sorted by share, the best first (ties: the order of the list above); those which explain less than half are left out.
+/// Empty where nothing is unexplained or nothing explains half of it. `diff` must hold its class image (InputError).
 [[nodiscard]] std::vector<Hypothesis> diagnose(const DrawList& list, const Frame& frame, const DeviceModel& device,
                                                std::span<const Image> golden, std::span<const Image> candidate, const DiffResult& diff,
                                                const DiagnosisOptions& options = {});

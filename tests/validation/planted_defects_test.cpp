@@ -338,6 +338,41 @@ TEST_CASE("another sub-texel rounding is named where the scene can be made again
   CHECK(hypotheses[0].explained_share == 1);
 }
 
+TEST_CASE("a mistake that explains less than half is not named") {
+  // The texture is flipped in v over a third of the frame's rows and all other texels are wrong at random: no mistake of a pipeline.
+  const Frame frame = test::frame_of(64, 64, {{TargetContent::color, kRgba8}, kId});
+  DrawList list =
+      test::list_of({at(0, 0, {0, 0}), at(64, 0, {1, 0}), at(0, 64, {0, 1}), at(64, 0, {1, 0}), at(64, 64, {1, 1}), at(0, 64, {0, 1})});
+  Image texture(16, 16, kRgba8);
+  Rng rng(9);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      for (int k = 0; k < 4; ++k) texture.channels<std::uint8_t>(x, y)[k] = static_cast<std::uint8_t>(rng.between(0, 255));
+    }
+  }
+  list.images = {std::make_shared<const Image>(texture)};
+  list.draws[0].shading = Shading::texture;
+  list.draws[0].texture = 0;
+  list.draws[0].sampler = {Filter::nearest, Wrap::repeat, Wrap::repeat};
+  raster::CpuRenderer cpu;
+  const auto golden = cpu.render(list, frame);
+  DrawList flipped = list;
+  for (RasterVertex& v : flipped.vertices) v.uv.y = 1 - v.uv.y;
+  const auto named = [&](int flipped_rows) {
+    auto candidate = cpu.render(flipped, frame);
+    Rng noise(10);
+    for (int y = flipped_rows; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        for (int k = 0; k < 4; ++k) candidate[0].channels<std::uint8_t>(x, y)[k] = static_cast<std::uint8_t>(noise.between(0, 255));
+      }
+    }
+    return diagnose(list, frame, llvmpipe_model(), golden, candidate, diff_images(list, frame, llvmpipe_model(), golden, candidate));
+  };
+  CHECK(named(20).empty());
+  REQUIRE_FALSE(named(44).empty());
+  CHECK(named(44)[0].name == "v flipped");
+}
+
 TEST_CASE("diagnosis needs the class image") {
   const Frame frame = test::frame_of(8, 8, {{TargetContent::color, kRgba8}});
   const DrawList list = test::list_of({at(0, 0), at(8, 0), at(0, 8)});

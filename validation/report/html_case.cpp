@@ -20,26 +20,51 @@ std::string content_title(const std::string& content) {
   return content;
 }
 
+std::string lower_title(const std::string& content) {
+  std::string title = content_title(content);
+  if (title[0] >= 'A' && title[0] <= 'Z') title[0] = static_cast<char>(title[0] - 'A' + 'a');
+  return title;
+}
+
 std::string picture(const std::string& css_class, const Image& image, const std::string& alt) {
-  return fmt::format("<img class=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", css_class, image.width(), image.height(),
-                     escaped(alt), png_data_uri(image));
+  // Few texels shown large are squares, not a blur.
+  const bool small = std::max(image.width(), image.height()) <= 400;
+  return fmt::format("<img class=\"{}{}\" width=\"{}\" height=\"{}\" alt=\"{}\" src=\"{}\">", css_class, small ? " small" : "",
+                     image.width(), image.height(), escaped(alt), png_data_uri(image));
+}
+
+// What lies over a picture that both sides drew alike: of the scene's other targets it says what differs.
+std::string same_label(const CaseResult& item, const TargetResult& target) {
+  std::string others;
+  for (const TargetResult& other : item.targets) {
+    if (!other.difference || other.difference->identical) continue;
+    others += fmt::format("{} {} differs in {}", others.empty() ? ";" : ",", lower_title(other.content),
+                          grouped(other.difference->differing_texels));
+  }
+  return others.empty() ? "CPU, exact = OpenGL" : lower_title(target.content) + " identical" + others;
+}
+
+// The page bounds a frame's height by its width: a tall one must fit the window.
+std::string frame_start(const std::string& css_class, const Image& image) {
+  return fmt::format("<div class=\"{}\" style=\"--ratio:{:.4f}\">", css_class,
+                     static_cast<double>(image.width()) / static_cast<double>(image.height()));
 }
 
 std::string comparison(const CaseResult& item, const TargetResult& target) {
   const std::string subject = fmt::format("{} of {}", content_title(target.content), item.name());
   if (!target.difference) {
-    return "<figure class=\"main\"><div class=\"frame\">" +
+    return "<figure class=\"main\">" + frame_start("frame", target.cpu_picture) +
            picture("cpu", target.cpu_picture, subject + ", drawn by the exact rasterizer") +
            "<span class=\"label left\">CPU, exact</span></div><figcaption><span>There is no OpenGL picture to compare "
            "with.</span></figcaption></figure>";
   }
   if (target.gl_picture.empty()) {
-    return "<figure class=\"main\"><div class=\"frame\">" +
-           picture("cpu", target.cpu_picture, subject + ", the same bytes from both renderers") +
-           "<span class=\"label left\">CPU, exact = OpenGL</span></div><figcaption><span>Both renderers gave the same "
-           "bytes.</span></figcaption></figure>";
+    return "<figure class=\"main\">" + frame_start("frame", target.cpu_picture) +
+           picture("cpu", target.cpu_picture, subject + ", the same bytes from both renderers") + "<span class=\"label left\">" +
+           escaped(same_label(item, target)) +
+           "</span></div><figcaption><span>Both renderers gave the same bytes of this target.</span></figcaption></figure>";
   }
-  return "<figure class=\"main\"><div class=\"frame slider\">" +
+  return "<figure class=\"main\">" + frame_start("frame slider", target.cpu_picture) +
          picture("cpu", target.cpu_picture, subject + ", drawn by the exact rasterizer") + "<div class=\"over\">" +
          picture("gl", target.gl_picture, subject + ", drawn by OpenGL") +
          "</div><span class=\"label left\">CPU, exact</span><span class=\"label right\">OpenGL</span>"
@@ -60,14 +85,14 @@ std::string class_figure(const CaseResult& item) {
   add("tie", item.tally.tie);
   add("unbounded", item.tally.unbounded);
   add("unexplained", item.tally.unexplained);
-  return "<figure class=\"class-figure\"><div class=\"frame\">" +
+  return "<figure class=\"class-figure\">" + frame_start("frame", item.class_picture) +
          picture("classes", item.class_picture, "Class of every texel; those that are not identical are marked, enlarged") +
          "</div><figcaption>" + legend + "</figcaption></figure>";
 }
 
 std::string error_figure(const TargetResult& target) {
   if (target.error_picture.empty()) return "";
-  return "<figure class=\"error-figure\"><div class=\"frame\">" +
+  return "<figure class=\"error-figure\">" + frame_start("frame", target.error_picture) +
          picture("errors", target.error_picture, "Heat map of the differences, enlarged") +
          "</div><figcaption><span>Size of each difference, dark to bright by powers of two.</span></figcaption></figure>";
 }
@@ -80,9 +105,10 @@ std::string fact(const std::string& name, const std::string& value) {
 
 std::string facts(const TargetResult& target) {
   const ImageDifference& d = *target.difference;
-  std::string list = fact("format", escaped(target.format)) +
-                     fact("texels that differ", fmt::format("{} <span class=\"soft\">({})</span>", grouped(d.differing_texels),
-                                                            share(d.differing_texels, d.texels)));
+  std::string list =
+      fact("format", escaped(target.format)) +
+      fact("texels that differ in this target",
+           fmt::format("{} <span class=\"soft\">({})</span>", grouped(d.differing_texels), share(d.differing_texels, d.texels)));
   if (d.format.type == ChannelType::uint32) return "<dl class=\"facts wide\">" + list + "</dl>";
   const std::optional<double> psnr = d.psnr_db();
   list += fact("PSNR", psnr ? fmt::format("{:.2f} dB", *psnr) : "∞ (identical)");
@@ -199,9 +225,10 @@ std::string case_article(const CaseResult& item, const std::string& id) {
   std::string html = fmt::format(
       "<article class=\"card\" id=\"{0}\" aria-labelledby=\"{0}-title\" data-step=\"{8}\"><div class=\"card-head\"><div><h3 "
       "id=\"{0}-title\">{1}</h3><p class=\"soft\">{2}</p></div>"
-      "<p class=\"soft num\">{3} × {4} · {5} triangles · CPU {6:.2f} s · GL {7:.2f} s</p></div>",
+      "<p class=\"soft num\">{3} × {4} · {5} triangles · {9} texels covered · CPU {6:.2f} s · GL {7:.2f} s</p></div>",
       id, escaped(item.name()), escaped(item.description), item.width, item.height, grouped(item.triangles), item.cpu_seconds,
-      item.gl_seconds, step);
+      item.gl_seconds, step, grouped(item.covered));
+  if (!item.skipped.empty()) return html + "<div class=\"callout quiet\"><b>Skipped.</b> " + escaped(item.skipped) + "</div></article>";
   if (!item.diagnosis.empty()) html += "<div class=\"callout\"><b>Diagnosis.</b> " + escaped(item.diagnosis) + "</div>";
   html += fmt::format("<div class=\"tabs\" role=\"tablist\" aria-label=\"Targets of {}\">", escaped(item.name()));
   for (std::size_t i = 0; i < item.targets.size(); ++i) {

@@ -36,15 +36,28 @@ std::string agreement(const VerifyResult& result) {
   return text;
 }
 
+// A warning: there was a device, or there was not, and what is missing from a whole answer.
+Banner incomplete(const VerifyResult& result) {
+  if (!result.gl_unavailable.empty()) {
+    return {"–", "Nothing was compared.",
+            "OpenGL is not available: " + escaped(result.gl_unavailable) + ". The pictures of the exact side are below."};
+  }
+  const std::size_t skipped = result.skipped_cases();
+  if (result.total().texels == 0) {
+    return {"–", "Nothing was compared.",
+            skipped == 0 ? "No job could be done on this input." : "The device could not draw any scene. The reasons are below."};
+  }
+  if (result.covered() == 0)
+    return {"–", "Nothing was drawn.", "No triangle covers a texel in any scene: only the background was compared."};
+  return {"–", "Not every scene was compared.",
+          fmt::format("The device could not draw {} of the scenes; the reasons are below. ", skipped) + agreement(result)};
+}
+
 Banner banner(const VerifyResult& result) {
   const ClassTally total = result.total();
   switch (verdict(result)) {
     case Verdict::agreed: return {"=", total.unbounded == 0 ? "Every texel is explained." : "No texel is unexplained.", agreement(result)};
-    case Verdict::not_compared:
-      return {"–", "Nothing was compared.",
-              result.gl_unavailable.empty()
-                  ? "No job could be done on this input."
-                  : "OpenGL is not available: " + escaped(result.gl_unavailable) + ". The pictures of the exact side are below."};
+    case Verdict::not_compared: return incomplete(result);
     case Verdict::failed:
       return {"≠", fmt::format("{} texels are unexplained.", grouped(total.unexplained)),
               fmt::format("Of {} texels compared; one of the two renderers is wrong there. The diagnosis and the texels are below.",
@@ -73,10 +86,13 @@ std::string class_bar(const ClassTally& t) {
 // The first picture, beside the verdict: the script copies it from the first scene, so that it is embedded once.
 std::string hero(const VerifyResult& result) {
   for (std::size_t j = 0; j < result.jobs.size(); ++j) {
-    if (result.jobs[j].cases.empty()) continue;
-    const CaseResult& item = result.jobs[j].cases.front();
-    return fmt::format("<figure class=\"hero\" data-from=\"case-{}-0\" hidden><a class=\"soft\" href=\"#case-{}-0\">{}</a></figure>", j, j,
-                       escaped(item.name()));
+    for (std::size_t i = 0; i < result.jobs[j].cases.size(); ++i) {
+      const CaseResult& item = result.jobs[j].cases[i];
+      if (item.targets.empty()) continue;
+      return fmt::format(
+          "<figure class=\"hero\" data-from=\"case-{0}-{1}\" hidden><a class=\"soft\" href=\"#case-{0}-{1}\">{2}</a></figure>", j, i,
+          escaped(item.name()));
+    }
   }
   return "";
 }
@@ -106,7 +122,11 @@ std::string verdict_section(const VerifyResult& result) {
   }
   html += fmt::format("<p class=\"sides\"><span>exact side</span> {}<br><span>device</span> {}{}</p></div>", escaped(result.cpu_name),
                       escaped(result.gl_name.empty() ? "none" : result.gl_name), credits(result));
-  return html + hero(result) + "</section>";
+  html += hero(result) + "</section>";
+  if (result.caveats.empty()) return html;
+  html += "<div class=\"callout quiet\">";
+  for (std::size_t i = 0; i < result.caveats.size(); ++i) html += (i > 0 ? "<br>" : "") + escaped(result.caveats[i]);
+  return html + "</div>";
 }
 
 std::string number_cell(std::uint64_t count, bool alarm = false) {
@@ -132,8 +152,10 @@ std::string class_table(const VerifyResult& result) {
     if (!job.skipped.empty())
       html += fmt::format("<tr><td>{}</td><td class=\"skip\" colspan=\"7\">skipped: {}</td></tr>", escaped(job.job), escaped(job.skipped));
     for (std::size_t i = 0; i < job.cases.size(); ++i) {
-      html += fmt::format("<tr><td>{}</td><td><a href=\"#case-{}-{}\">{}</a></td>{}</tr>", i == 0 ? escaped(job.job) : "", j, i,
-                          escaped(job.cases[i].name()), tally_cells(job.cases[i].tally));
+      const CaseResult& item = job.cases[i];
+      html += fmt::format(
+          "<tr><td>{}</td><td><a href=\"#case-{}-{}\">{}</a></td>{}</tr>", i == 0 ? escaped(job.job) : "", j, i, escaped(item.name()),
+          item.skipped.empty() ? tally_cells(item.tally) : "<td class=\"skip\" colspan=\"6\">skipped: " + escaped(item.skipped) + "</td>");
     }
   }
   return html + fmt::format("</tbody><tfoot><tr class=\"total\"><th scope=\"row\" colspan=\"2\">total</th>{}</tr></tfoot></table></div>",
@@ -180,11 +202,17 @@ std::string inputs_section(const VerifyResult& result) {
 
 std::string row(const std::string& name, const std::string& value) { return fmt::format("<dt>{}</dt><dd>{}</dd>", name, escaped(value)); }
 
+std::string state_text(const RasterState& state) {
+  return fmt::format("{} sub-texel bits, rounded {}; fill rule {}; half rounded {}", state.subtexel_bits, to_string(state.snap),
+                     to_string(state.fill_rule), to_string(state.half_rounding));
+}
+
 std::string run_section(const VerifyResult& result, const RunInfo& run) {
   return "<h2>This run</h2><dl class=\"env\">" +
          row("etalon", fmt::format("{}, contract {}", run.version, raster::kRasterContractVersion)) + row("exact side", result.cpu_name) +
          row("device", result.gl_name.empty() ? "none: " + result.gl_unavailable : result.gl_name) + row("bounds", result.bounds_origin) +
-         row("threads", std::to_string(run.threads)) + row("time", fmt::format("{:.1f} s", run.seconds)) +
+         row("raster state", state_text(result.state)) + row("threads", std::to_string(run.threads)) +
+         row("time", fmt::format("{:.1f} s", run.seconds)) +
          row("memory", fmt::format("{:.0f} MiB at most", static_cast<double>(run.peak_bytes) / 1048576)) + "</dl>";
 }
 

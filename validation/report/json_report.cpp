@@ -54,6 +54,8 @@ Json to_json(const TargetResult& target) {
 Json to_json(const CaseResult& item) {
   Json object = {{"model", item.model}, {"view", item.view},     {"sampling", item.sampling},
                  {"width", item.width}, {"height", item.height}, {"triangles", item.triangles}};
+  object["covered"] = item.covered;
+  if (!item.skipped.empty()) object["skipped"] = item.skipped;
   object.update(to_json(item.tally));
   object["diagnosis"] = item.diagnosis;
   Json targets = Json::array();
@@ -125,7 +127,12 @@ Json verify_document(const VerifyResult& result, const RunInfo& run) {
   document["renderers"] = {{"cpu", result.cpu_name}, {"gl", result.gl_name.empty() ? Json(nullptr) : Json(result.gl_name)}};
   document["gl_unavailable"] = result.gl_unavailable.empty() ? Json(nullptr) : Json(result.gl_unavailable);
   document["bounds"] = {{"origin", result.bounds_origin}, {"measured", result.bounds_measured}};
+  document["state"] = {{"subtexel_bits", result.state.subtexel_bits},
+                       {"snap", to_string(result.state.snap)},
+                       {"fill_rule", to_string(result.state.fill_rule)},
+                       {"half_rounding", to_string(result.state.half_rounding)}};
   document["notes"] = result.notes;
+  for (const std::string& caveat : result.caveats) document["notes"].push_back(caveat);
   Json jobs = Json::array();
   for (const JobResult& job : result.jobs) jobs.push_back(to_json(job));
   document["jobs"] = std::move(jobs);
@@ -153,9 +160,13 @@ std::vector<std::string> verify_table(const VerifyResult& result) {
                               "rounding", "tie", "unbounded", "unexplained"));
   for (const JobResult& job : result.jobs) {
     if (!job.skipped.empty()) lines.push_back(fmt::format("{:<9}skipped: {}", job.job, job.skipped));
-    for (const CaseResult& item : job.cases) lines.push_back(table_line(job.job, item.name(), scene_width, item.tally));
+    for (const CaseResult& item : job.cases) {
+      lines.push_back(item.skipped.empty() ? table_line(job.job, item.name(), scene_width, item.tally)
+                                           : fmt::format("{:<9}{:<{}}skipped: {}", job.job, item.name(), scene_width, item.skipped));
+    }
   }
   lines.push_back(table_line("total", "", scene_width, result.total()));
+  for (const std::string& caveat : result.caveats) lines.push_back("note: " + caveat);
   return lines;
 }
 

@@ -24,7 +24,7 @@ namespace etalon::validation {
 /// The class table as CSV: one line per scene, then one per job, then the total. RFC 4180, "\r\n".
 [[nodiscard]] std::string verify_csv(const VerifyResult& result);
 
-/// The class table for a terminal, one string a line: a scene a line, then the total.
+/// The class table for a terminal, one string a line: a scene a line, then the total, then the caveats.
 [[nodiscard]] std::vector<std::string> verify_table(const VerifyResult& result);
 
 /// 1234567 → "1,234,567".

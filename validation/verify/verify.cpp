@@ -102,14 +102,35 @@ CaseResult run_case(const std::string& job, const Plan& plan, const Frame& frame
   item.description = plan.description;
   const Camera camera =
       plan.view.camera ? *plan.view.camera : named_view(plan.view.name, bounding_box(plan.model->mesh), frame.width, frame.height);
-  const DrawList list = make_scene(plan.model->mesh, plan.materials, camera, frame);
+  item.width = frame.width;
+  item.height = frame.height;
   const auto scene_with_snap = [&](SnapRounding snap) {
     Frame other = frame;
     other.state.snap = snap;
     return make_scene(plan.model->mesh, plan.materials, camera, other);
   };
-  compare_case(item, list, frame, exact, device, options, scene_with_snap);
+  try {
+    compare_case(item, make_scene(plan.model->mesh, plan.materials, camera, frame), frame, exact, device, options, scene_with_snap);
+  } catch (const UnavailableError& error) {
+    item.skipped = error.what();  // one texture beyond a device's limits must not cost the other scenes
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", plan.model->name, error.what()));
+  }
   return item;
+}
+
+// What was asked for and is drawn otherwise.
+std::vector<std::string> state_notes(const RasterState& wanted, const RasterState& drawn) {
+  std::vector<std::string> notes;
+  if (wanted.subtexel_bits != drawn.subtexel_bits)
+    notes.push_back(fmt::format("the device has {0} sub-texel bits, not {1}: compared at {0}", drawn.subtexel_bits, wanted.subtexel_bits));
+  const auto add = [&](const char* what, const std::string& asked, const std::string& has) {
+    if (asked != has) notes.push_back(fmt::format("the device has {0} {1}, not {2}: compared with {1}", what, has, asked));
+  };
+  add("sub-texel rounding", to_string(wanted.snap), to_string(drawn.snap));
+  add("fill rule", to_string(wanted.fill_rule), to_string(drawn.fill_rule));
+  add("half rounding", to_string(wanted.half_rounding), to_string(drawn.half_rounding));
+  return notes;
 }
 
 void describe_sides(VerifyResult& result, const Renderer& exact, const VerifyDevice& device) {
@@ -144,6 +165,10 @@ VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact,
     total += static_cast<int>(jobs.back().plans.size());
   }
   const Frame frame = frame_for(options, device);
+  result.state = frame.state;
+  if (device.renderer != nullptr) {
+    for (std::string& note : state_notes(options.state, frame.state)) result.caveats.push_back(std::move(note));
+  }
   int done = 0;
   for (const JobPlan& job : jobs) {
     JobResult job_result{job.job, job.skipped, {}};
@@ -152,6 +177,9 @@ VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact,
         options.on_progress(fmt::format("{}: {}, {}, {}", job.job, plan.model->name, plan.view.name, plan.sampling), done, total);
       job_result.cases.push_back(run_case(job.job, plan, frame, exact, device, options));
       ++done;
+      const CaseResult& item = job_result.cases.back();
+      if (item.skipped.empty() && item.covered == 0)
+        result.caveats.push_back(fmt::format("{}, {}: no triangle covers a texel", job.job, item.name()));
       if (options.on_case) options.on_case(job_result.cases.back());
     }
     result.jobs.push_back(std::move(job_result));

@@ -145,6 +145,14 @@ void classify(CaseResult& item, const Pair& pair, const DrawList& list, const Fr
   item.class_picture = reduced(class_picture(pair.cpu_picture.front(), diff.class_image, reach), options.picture_px);
 }
 
+std::uint64_t covered_texels(const Image& ids) {
+  std::uint64_t count = 0;
+  for (int y = 0; y < ids.height(); ++y) {
+    for (int x = 0; x < ids.width(); ++x) count += *ids.channels<std::uint32_t>(x, y) != kNoTriangle ? 1 : 0;
+  }
+  return count;
+}
+
 void picture_targets(Pair& pair, const Frame& frame) {
   for (std::size_t t = 0; t < frame.targets.size(); ++t) {
     const bool is_depth = frame.targets[t].content == TargetContent::depth;
@@ -201,6 +209,9 @@ void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Re
   Pair pair;
   draw_both(item, pair, list, frame, exact, device);
 
+  for (std::size_t t = 0; t < frame.targets.size(); ++t) {
+    if (frame.targets[t].content == TargetContent::triangle_id) item.covered = covered_texels(pair.cpu[t]);
+  }
   const Stopwatch compare;
   // A mark must survive the reduction of its picture, which keeps one texel of `step`, and be seen where the page shows it some 340 px wide.
   const int longest = std::max(frame.width, frame.height);

@@ -24,10 +24,26 @@ ClassTally VerifyResult::total() const {
   return sum;
 }
 
+std::uint64_t VerifyResult::covered() const {
+  std::uint64_t sum = 0;
+  for (const JobResult& job : jobs) {
+    for (const CaseResult& item : job.cases) sum += item.covered;
+  }
+  return sum;
+}
+
+std::size_t VerifyResult::skipped_cases() const {
+  std::size_t count = 0;
+  for (const JobResult& job : jobs) {
+    for (const CaseResult& item : job.cases) count += item.skipped.empty() ? 0 : 1;
+  }
+  return count;
+}
+
 Verdict verdict(const VerifyResult& result) {
   const ClassTally total = result.total();
   if (total.unexplained > 0) return Verdict::failed;
-  if (total.texels == 0) return Verdict::not_compared;
+  if (total.texels == 0 || result.covered() == 0 || result.skipped_cases() > 0) return Verdict::not_compared;
   return Verdict::agreed;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/draw/state.h"
 #include "core/image/image.h"
 #include "validation/metrics/image_difference.h"
 
@@ -66,6 +67,8 @@ struct CaseResult {
   std::string description;  ///< one sentence for the page
   int width = 0, height = 0;
   std::uint64_t triangles = 0;  ///< in the draw list, after clipping
+  std::uint64_t covered = 0;    ///< texels that show a triangle on the exact side
+  std::string skipped;          ///< why the device could not draw it; empty where it could; else nothing of it was compared
   double cpu_seconds = 0, gl_seconds = 0, compare_seconds = 0;
   ClassTally tally;               ///< all 0 where there is no device
   std::string diagnosis;          ///< what pattern the unexplained texels show; empty where there are none
@@ -86,17 +89,22 @@ struct VerifyResult {
   std::vector<VerifyInput> inputs;
   std::vector<JobResult> jobs;
   std::string cpu_name;
-  std::string gl_name;             ///< empty where there is no device
-  std::string gl_unavailable;      ///< why; empty where there is one
-  std::string bounds_origin;       ///< "derived: …" or "measured: …"
-  bool bounds_measured = false;    ///< then agreement is not called proven
-  std::vector<std::string> notes;  ///< about the inputs: "12 faces without area"
+  std::string gl_name;               ///< empty where there is no device
+  std::string gl_unavailable;        ///< why; empty where there is one
+  std::string bounds_origin;         ///< "derived: …" or "measured: …"
+  bool bounds_measured = false;      ///< then agreement is not called proven
+  RasterState state;                 ///< drawn with; of what was wanted that which the device supports
+  std::vector<std::string> notes;    ///< about the inputs: "head: 12 faces without area"
+  std::vector<std::string> caveats;  ///< what was asked for and done otherwise or shows nothing: "no triangle covers a texel"
   [[nodiscard]] ClassTally total() const;
+  [[nodiscard]] std::uint64_t covered() const;      ///< texels that show a triangle, of all scenes
+  [[nodiscard]] std::size_t skipped_cases() const;  ///< scenes that the device could not draw
 };
 
 enum class Verdict : std::uint8_t { agreed, not_compared, failed };
 
-/// failed: an unexplained texel; not_compared: no texel was; else agreed (VerifyResult::bounds_measured says whether that is proof).
+/// failed: an unexplained texel; not_compared: no texel was, or none that shows a triangle, or a scene was skipped; else agreed
+/// (VerifyResult::bounds_measured says whether that is proof).
 [[nodiscard]] Verdict verdict(const VerifyResult& result);
 [[nodiscard]] std::string to_string(Verdict value);
 

@@ -60,6 +60,41 @@ TEST_CASE("the page says what the result says") {
   CHECK(verify_page(result, {}).find("OpenGL is not available: no library") != std::string::npos);
 }
 
+TEST_CASE("the page calls nothing explained that was not drawn, and says which state was compared") {
+  const auto has = [](const VerifyResult& result, const std::string& text) {
+    return verify_page(result, {}).find(text) != std::string::npos;
+  };
+  VerifyResult result = test::sample_result();
+  result.state.subtexel_bits = 6;
+  CHECK(has(result, "6 sub-texel bits"));
+  result.jobs[0].cases[0].covered = 0;
+  CHECK(has(result, "Nothing was drawn."));
+  CHECK_FALSE(has(result, "Every texel is explained."));
+  result = test::sample_result();
+  CaseResult skipped = result.jobs[0].cases[0];
+  skipped.skipped = "texture <too> wide";
+  skipped.targets.clear();
+  skipped.tally = {};
+  result.jobs[0].cases.insert(result.jobs[0].cases.begin(), skipped);
+  CHECK(has(result, "Not every scene was compared."));
+  CHECK(has(result, "skipped: texture &lt;too&gt; wide"));
+  CHECK(has(result, "data-from=\"case-0-1\""));  // the first scene that has a picture
+}
+
+TEST_CASE("a picture that both sides drew alike is not called the whole scene") {
+  VerifyResult result = test::sample_result();
+  CaseResult& item = result.jobs[0].cases[0];
+  TargetResult depth = item.targets[0];
+  depth.content = "depth";
+  item.targets[0].gl_picture = {};
+  item.targets[0].difference = measure_difference(item.targets[0].cpu_picture, item.targets[0].cpu_picture);
+  CHECK(verify_page(result, {}).find("CPU, exact = OpenGL") != std::string::npos);
+  item.targets.push_back(depth);
+  const std::string page = verify_page(result, {});
+  CHECK(page.find("CPU, exact = OpenGL") == std::string::npos);
+  CHECK(page.find("colour identical; depth differs in 1") != std::string::npos);
+}
+
 TEST_CASE("a report is written whole, and refused where it cannot be") {
   std::string pattern = (std::filesystem::temp_directory_path() / "etalon-report-XXXXXX").string();
   REQUIRE(mkdtemp(pattern.data()) != nullptr);

@@ -49,6 +49,25 @@ TEST_CASE("the verdict: an unexplained texel fails, no texel compares nothing") 
   CHECK(verdict(result) == Verdict::not_compared);
 }
 
+TEST_CASE("raster state, covered texels, skipped scenes and caveats are in the document and the table") {
+  VerifyResult result = test::sample_result();
+  result.state.subtexel_bits = 6;
+  result.caveats = {"the device is small"};
+  result.jobs[0].cases[0].skipped = "too wide";
+  const auto document = verify_document(result, {});
+  CHECK(document["state"]["subtexel_bits"] == 6);
+  CHECK(document["state"]["snap"] == "nearest_even");
+  CHECK(document["state"]["fill_rule"] == "left_ymin");
+  CHECK(document["state"]["half_rounding"] == "nearest_even");
+  CHECK(document["notes"].back() == "the device is small");
+  CHECK(document["jobs"][0]["cases"][0]["covered"] == 7);
+  CHECK(document["jobs"][0]["cases"][0]["skipped"] == "too wide");
+  CHECK(document["verdict"] == "not_compared");
+  const std::vector<std::string> lines = verify_table(result);
+  CHECK(lines[1].find("skipped: too wide") != std::string::npos);
+  CHECK(lines.back() == "note: the device is small");
+}
+
 TEST_CASE("CSV: quoted fields, a line per scene, per job and for all") {
   const std::string csv = verify_csv(test::sample_result());
   CHECK(csv.find("render,\"a <b> & \"\"c\"\", d\",fit,nearest,16,15,0,1,0,0\r\n") != std::string::npos);

@@ -26,6 +26,7 @@ inline validation::VerifyResult sample_result() {
   item.sampling = "nearest";
   item.width = item.height = 4;
   item.triangles = 1234;
+  item.covered = 7;
   item.tally = {.texels = 16, .identical = 15, .rounding = 0, .tie = 1, .unbounded = 0, .unexplained = 0};
   item.class_picture = a;
   WorstTexel worst;

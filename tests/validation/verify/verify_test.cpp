@@ -1,8 +1,10 @@
 // The main job with a device of our own making: one that keeps the contract, and ones with a defect planted.
 #include "validation/verify/verify.h"
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -109,6 +111,89 @@ TEST_CASE("a missing row of texels is a coverage defect") {
   const VerifyResult result = verify_with(&device, options);
   CHECK(verdict(result) == Verdict::failed);
   CHECK(result.jobs[0].cases[0].diagnosis.find("coverage") != std::string::npos);
+}
+
+namespace {
+
+/// A device with 8 sub-texel bits that takes no texture wider than 16 texels where told so.
+class Limited : public Tampered {
+ public:
+  explicit Limited(bool refuses_linear) : refuses_linear_(refuses_linear) {}
+  [[nodiscard]] RasterState supported_state(const RasterState& wanted) const override {
+    RasterState state = wanted;
+    state.subtexel_bits = 8;
+    return state;
+  }
+  [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override {
+    if (refuses_linear_ && list.draws.at(0).sampler.filter == Filter::linear) throw UnavailableError("texture too wide");
+    return Tampered::render(list, frame);
+  }
+
+ private:
+  bool refuses_linear_;
+};
+
+bool any_has(const std::vector<std::string>& lines, const std::string& part) {
+  return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(part) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("a state that the device does not have is told") {
+  Limited device(false);
+  VerifyOptions options = small();
+  options.state.subtexel_bits = 16;
+  const VerifyResult result = verify_with(&device, options);
+  CHECK(result.state.subtexel_bits == 8);
+  CHECK(any_has(result.caveats, "the device has 8 sub-texel bits, not 16: compared at 8"));
+  CHECK(verify_with(&device).caveats.empty());
+  CHECK(verify_with(nullptr, options).state.subtexel_bits == 16);
+}
+
+TEST_CASE("a scene that the device cannot draw is skipped, the others are compared, and that is a warning") {
+  Limited device(true);
+  const VerifyResult result = verify_with(&device);
+  CHECK(verdict(result) == Verdict::not_compared);
+  CHECK(result.skipped_cases() == 2);
+  CHECK(result.jobs[0].cases[1].skipped == "texture too wide");
+  CHECK(result.jobs[0].cases[1].targets.empty());
+  CHECK(result.jobs[0].cases[0].skipped.empty());
+  CHECK(result.total().identical == 4 * 48 * 40);
+}
+
+TEST_CASE("nothing drawn is no agreement") {
+  Tampered device;
+  CHECK(verify_with(&device).jobs[0].cases[0].covered > 100);
+  VerifyOptions options = small();
+  Camera away;
+  away.eye = {0, 0, 4};
+  away.target = {0, 0, 8};
+  options.views = {{"away", away}};
+  const VerifyResult result = verify_with(&device, options);
+  CHECK(result.total().identical > 0);
+  CHECK(result.covered() == 0);
+  CHECK(verdict(result) == Verdict::not_compared);
+  CHECK(any_has(result.caveats, "render, swirl, away, nearest: no triangle covers a texel"));
+  options.views = {{"fit", {}}, {"away", away}};
+  options.jobs = {"render"};
+  CHECK(verdict(verify_with(&device, options)) == Verdict::agreed);
+  CHECK(verify_with(&device, options).caveats.size() == 2);
+}
+
+TEST_CASE("a model that breaks the contract is named") {
+  Tampered device;
+  raster::CpuRenderer exact;
+  VerifyModel model = swirl_model();
+  model.mesh.positions[0].x = std::numeric_limits<float>::quiet_NaN();
+  VerifyOptions options = small();
+  options.views = {{"straight", Camera{}}};
+  std::string message;
+  try {
+    (void)run_verify({model}, exact, {&device, contract_model(), ""}, options);
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  CHECK(message.rfind("swirl: ", 0) == 0);
 }
 
 TEST_CASE("without a device the exact pictures are there and nothing is claimed") {
