@@ -115,13 +115,14 @@ TEST_CASE("a missing row of texels is a coverage defect") {
 
 namespace {
 
-/// A device with 8 sub-texel bits that takes no texture wider than 16 texels where told so.
+/// A device with 8 sub-texel bits that truncates halves, and refuses linear filtering where told so.
 class Limited : public Tampered {
  public:
   explicit Limited(bool refuses_linear) : refuses_linear_(refuses_linear) {}
   [[nodiscard]] RasterState supported_state(const RasterState& wanted) const override {
     RasterState state = wanted;
     state.subtexel_bits = 8;
+    state.half_rounding = HalfRounding::toward_zero;
     return state;
   }
   [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override {
