@@ -32,8 +32,19 @@ void require_writable_existing(const fs::path& folder, const std::string& shown)
 
 }  // namespace
 
+CLI::Validator not_empty() {
+  return CLI::Validator([](std::string& text) { return text.empty() ? std::string("expected a value, got an empty one") : std::string(); },
+                        "");
+}
+
+std::string counted(std::uint64_t count, const std::string& noun) {
+  return fmt::format("{} {}{}", validation::grouped(count), noun, count == 1 ? "" : "s");
+}
+
 void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& example) {
-  verb.add_option("--json", options.json, "Write the result as a JSON document ('-': standard output)")->type_name("FILE");
+  verb.add_option("--json", options.json, "Write the result as a JSON document ('-': standard output)")
+      ->type_name("FILE")
+      ->check(not_empty());
   verb.add_option("--threads", options.threads, "Threads to use (default: all cores); no output byte depends on it")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <string>
 
 #include <CLI/App.hpp>
+#include <CLI/Validators.hpp>
 #include <nlohmann/json.hpp>
 
 #include "cli/console.h"
@@ -24,6 +26,12 @@ struct CommonOptions {
   bool quiet = false;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 };
+
+/// Refuses an empty argument: a variable of the shell that is not set, more often than not.
+[[nodiscard]] CLI::Validator not_empty();
+
+/// "1 face", "2 faces"; thousands in groups.
+[[nodiscard]] std::string counted(std::uint64_t count, const std::string& noun);
 
 /// Adds the options to a verb, and `example` (one command a line) under its help.
 void add_common_options(CLI::App& verb, CommonOptions& options, const std::string& example);

@@ -48,9 +48,10 @@ void write_stdout(const std::string& bytes) {
 
 Console::~Console() { erase_bar(); }
 
-void Console::line(const std::string& text) {
+void Console::line(const std::string& raw) {
   if (options_.quiet) return;
   erase_bar();
+  const std::string text = one_line(raw);
   if (options_.data_on_stdout) {
     const std::string line = text + "\n";
     std::fwrite(line.data(), 1, line.size(), stderr);

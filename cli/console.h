@@ -18,8 +18,8 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  /// Prints one line (a newline is added). WriteError where standard output cannot take it.
-  void line(const std::string& text);
+  /// Prints `raw` as exactly one line, control characters escaped (a newline is added). WriteError where standard output cannot take it.
+  void line(const std::string& raw);
 
   /// Shows `label` with a bar at done/total on standard error, if that is a terminal and more than a second has passed since construction.
   void progress(const std::string& label, int done, int total);

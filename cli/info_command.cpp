@@ -10,6 +10,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "cli/attribution.h"
+#include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/model_input.h"
 #include "core/base/error.h"
@@ -85,8 +86,9 @@ Json mesh_json(const Mesh& mesh, const MeshReport& report) {
   return object;
 }
 
-Finding examine_mesh(const std::string& path) {
+Finding examine_mesh(const std::string& path, CallFiles& files) {
   const io::LoadedModel model = io::read_mesh(path);
+  add_side_files(files, model);
   const MeshReport report = validate_mesh(model.mesh);
   Finding finding;
   for (const std::string& line : report.to_lines()) finding.lines.push_back(line);
@@ -147,13 +149,13 @@ Finding examine_exr(const std::string& path) {
   return finding;
 }
 
-Finding examine(const std::string& path) {
+Finding examine(const std::string& path, CallFiles& files) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   const auto is_one_of = [&](std::initializer_list<const char*> list) {
     return std::any_of(list.begin(), list.end(), [&](const char* e) { return extension == e; });
   };
-  if (is_one_of({".obj", ".ply", ".glb", ".gltf"})) return examine_mesh(path);
+  if (is_one_of({".obj", ".ply", ".glb", ".gltf"})) return examine_mesh(path, files);
   if (extension == ".exr") return examine_exr(path);
   if (is_one_of({".png", ".jpg", ".jpeg", ".tif", ".tiff"})) return examine_image(path);
   throw InputError(fmt::format("{}: expected .obj .ply .glb .gltf .png .jpg .tif or .exr, got '{}'", path, extension));
@@ -162,13 +164,16 @@ Finding examine(const std::string& path) {
 int run(const Options& options) {
   apply(options.common);
   Console console(console_options(options.common));
+  CallFiles files;
+  files.add_input(options.path, "the input");
+  files.add_output(options.common.json, "--json");
   require_writable_file(options.common.json);
   validation::VerifyInput input;
   input.name = std::filesystem::path(options.path).filename().string();
   input.role = "file";
   input.sha256 = io::file_sha256(options.path);
   input.attribution = attribution_of(input.sha256);
-  Finding finding = examine(options.path);
+  Finding finding = examine(options.path, files);
   for (const std::string& line : finding.lines) console.line(line);
   if (!input.attribution.empty()) console.line("by " + input.attribution);
 

@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -61,8 +62,9 @@ int run(int argc, char** argv) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::Success& request) {  // --help, --version
-    root.exit(request);
-    write_stdout("");
+    std::ostringstream text;
+    root.exit(request, text, text);
+    write_stdout(text.str());
     return kExitDone;
   } catch (const CLI::ParseError& error) {
     throw UsageError(prefix_of(verbs) + error.what());

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/attribution.h"
+#include "cli/common_options.h"
 #include "core/base/error.h"
 #include "core/base/sha256.h"
 #include "core/io/image_file.h"
@@ -81,16 +82,25 @@ void stand_in_for_textures(VerifyModel& model) {
 }  // namespace
 
 void add_model_options(CLI::App& verb, ModelOptions& options) {
-  verb.add_option("--texture", options.texture, "Image that replaces the model's own textures")->type_name("IMG");
+  verb.add_option("--texture", options.texture, "Image that replaces the model's own textures")->type_name("IMG")->check(not_empty());
   verb.add_flag("--flip-v", options.flip_v, "The model's texture coordinates run from top to bottom against its format's convention");
   verb.add_option("--snap-bits", options.snap_bits, "Sub-texel bits of raster positions (default 8)")
       ->type_name("N")
       ->check(CLI::Range(1, 16));
 }
 
-VerifyModel load_model(const std::string& path, const ModelOptions& options) {
+void add_side_files(CallFiles& files, const io::LoadedModel& model) {
+  for (const fs::path& path : model.side_files) files.add_input(path.string(), "a file of the model");
+  for (const io::Material& material : model.materials)
+    if (material.texture_path) files.add_input(material.texture_path->string(), "the model's texture");
+}
+
+VerifyModel load_model(const std::string& path, const ModelOptions& options, CallFiles& files) {
+  files.add_input(path, "the model");
+  files.add_input(options.texture, "--texture");
   VerifyModel model;
   io::LoadedModel loaded = io::read_mesh(path);
+  add_side_files(files, loaded);
   model.name = fs::path(path).stem().string();
   model.mesh = std::move(loaded.mesh);
   model.notes = std::move(loaded.notes);

@@ -5,6 +5,9 @@
 
 #include <CLI/App.hpp>
 
+#include "cli/call_files.h"
+#include "core/base/error.h"
+#include "core/io/mesh_file.h"
 #include "core/procedural/model.h"
 #include "validation/verify/verify.h"
 
@@ -19,8 +22,22 @@ struct ModelOptions {
 void add_model_options(CLI::App& verb, ModelOptions& options);
 
 /// Reads model and textures. A model without texture is drawn in its vertex colours; without those, with a checkerboard, which is projected
-/// along z where there are no texture coordinates either; the notes say so. InputError.
-[[nodiscard]] validation::VerifyModel load_model(const std::string& path, const ModelOptions& options);
+/// along z where there are no texture coordinates either; the notes say so. InputError. All that is read is added to
+/// `files`: UsageError where one of them is an output.
+[[nodiscard]] validation::VerifyModel load_model(const std::string& path, const ModelOptions& options, CallFiles& files);
+
+/// What `draw` returns; an InputError of a scene made from the model at `path` names that file.
+template <typename Draw>
+auto naming_the_model(const std::string& path, const Draw& draw) {
+  try {
+    return draw();
+  } catch (const InputError& error) {
+    throw InputError(path + ": " + error.what());
+  }
+}
+
+/// Adds what the model was read from besides its own file: material libraries, buffers, textures.
+void add_side_files(CallFiles& files, const io::LoadedModel& model);
 
 /// The same from a procedural model; its input's sha256 is over mesh and texture.
 [[nodiscard]] validation::VerifyModel embedded_model(procedural::Model model);

@@ -7,6 +7,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/gl_options.h"
 #include "cli/interrupt.h"
@@ -29,7 +30,7 @@ struct Options {
   std::string model_path;
   std::string output;
   std::string view = "fit";
-  std::string size = "1024";
+  std::string size;  ///< empty: the view file's
   std::string backend = "cpu";
   std::string filter = "nearest";
   bool margins = false;
@@ -51,8 +52,7 @@ OutputKind output_kind(const Options& options) {
   return png ? OutputKind::png : OutputKind::exr;
 }
 
-Frame frame_of(const Options& options, OutputKind kind) {
-  const FrameSize size = parse_size(options.size);
+Frame frame_of(const Options& options, OutputKind kind, FrameSize size) {
   Frame frame;
   frame.width = size.width;
   frame.height = size.height;
@@ -90,13 +90,19 @@ void write_output(const Options& options, OutputKind kind, std::vector<Image> im
 int run(const Options& options) {
   apply(options.common);
   const OutputKind kind = output_kind(options);
-  Frame frame = frame_of(options, kind);
-  const NamedView view = parse_view(options.view);
+  const ViewChoice choice = parse_view(options.view);
+  const NamedView& view = choice.named;
+  Frame frame = frame_of(options, kind, frame_size(options.size, {choice}));
   Console console(console_options(options.common, options.output));
+  CallFiles files;
+  files.add_input(options.model_path, "the model");
+  if (view.camera) files.add_input(options.view, "--view");
+  files.add_output(options.output, "-o");
+  files.add_output(options.common.json, "--json");
   require_writable_file(options.output);
   require_writable_file(options.common.json);
 
-  VerifyModel model = load_model(options.model_path, options.model);
+  VerifyModel model = load_model(options.model_path, options.model, files);
   for (const std::string& note : model.notes) console.line("note: " + note);
   for (Material& material : model.materials) material.sampler.filter = options.filter == "linear" ? Filter::linear : Filter::nearest;
 
@@ -111,8 +117,11 @@ int run(const Options& options) {
   }
   console.progress("drawing", 0, 1);
   const Camera camera = view.camera ? *view.camera : named_view(view.name, bounding_box(model.mesh), frame.width, frame.height);
-  const DrawList list = make_scene(model.mesh, model.materials, camera, frame);
-  std::vector<Image> images = renderer->render(list, frame);
+  auto [list, images] = naming_the_model(options.model_path, [&] {
+    DrawList scene = make_scene(model.mesh, model.materials, camera, frame);
+    std::vector<Image> targets = renderer->render(scene, frame);
+    return std::pair(std::move(scene), std::move(targets));
+  });
 
   nlohmann::ordered_json document = document_head("render", model.inputs);
   document["backend"] = options.backend;
@@ -128,7 +137,7 @@ int run(const Options& options) {
         {{"content", to_string(frame.targets[i].content)}, {"format", to_string(frame.targets[i].format)}, {"sha256", images[i].sha256()}});
   }
   write_output(options, kind, std::move(images), document["draw_list_sha256"]);
-  console.line(fmt::format("{}: {}x{}, {} triangles, {}", options.output, frame.width, frame.height, grouped(list.triangles.size()),
+  console.line(fmt::format("{}: {}x{}, {}, {}", options.output, frame.width, frame.height, counted(list.triangles.size(), "triangle"),
                            renderer->name()));
   RunInfo run_info = current_run(options.common.start);
   run_info.paths = {options.model_path};
@@ -148,7 +157,9 @@ Verb add_render(CLI::App& root) {
       ->required()
       ->type_name("FILE");
   app->add_option("--view", options->view, "front, fit, N/24 or a view file (default fit)")->type_name("NAME|FILE");
-  app->add_option("--size", options->size, "Frame, WxH or one number (default 1024)")->type_name("WxH");
+  app->add_option("--size", options->size, "Frame, WxH or one number (default: the view file's, else 1024)")
+      ->type_name("WxH")
+      ->check(not_empty());
   app->add_option("--backend", options->backend, "cpu: the exact rasterizer (default); gl: OpenGL")
       ->check(CLI::IsMember({"cpu", "gl"}))
       ->type_name("SIDE");

@@ -8,6 +8,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/gl_options.h"
 #include "cli/interrupt.h"
@@ -30,7 +31,7 @@ using namespace etalon::validation;
 struct Options {
   std::vector<std::string> models;
   std::vector<std::string> jobs = verify_jobs();
-  std::string size = "1024";
+  std::string size;  ///< empty: the view files'
   std::vector<std::string> views;
   std::string report = "etalon-report";
   ModelOptions model;
@@ -38,25 +39,30 @@ struct Options {
   CommonOptions common;
 };
 
-std::vector<VerifyModel> load_models(const Options& options, Console& console) {
+std::vector<VerifyModel> load_models(const Options& options, Console& console, CallFiles& files) {
   std::vector<VerifyModel> models;
   if (options.models.empty()) {
     console.progress("making the embedded head", 0, 1);
     models.push_back(embedded_model(procedural::make_head()));
     models.push_back(embedded_model(procedural::make_swirl()));
   }
-  for (const std::string& path : options.models) models.push_back(load_model(path, options.model));
+  for (const std::string& path : options.models) models.push_back(load_model(path, options.model, files));
   for (const VerifyModel& model : models) {
-    console.line(fmt::format("model    {}: {} faces{}", model.inputs.front().name, grouped(model.mesh.face_count()),
+    console.line(fmt::format("model    {}: {}{}", model.inputs.front().name, counted(model.mesh.face_count(), "face"),
                              model.mesh.has_uv ? "" : ", no texture coordinates"));
     for (const std::string& note : model.notes) console.line("         note: " + note);
   }
   return models;
 }
 
-VerifyOptions verify_options(const Options& options, Console& console) {
+VerifyOptions verify_options(const Options& options, Console& console, CallFiles& files) {
   VerifyOptions result;
-  const FrameSize size = parse_size(options.size);
+  std::vector<ViewChoice> views;
+  for (const std::string& view : options.views) {
+    views.push_back(parse_view(view));
+    if (views.back().named.camera) files.add_input(view, "--view");
+  }
+  const FrameSize size = frame_size(options.size, views);
   result.width = size.width;
   result.height = size.height;
   result.jobs.clear();
@@ -64,7 +70,7 @@ VerifyOptions verify_options(const Options& options, Console& console) {
     if (std::find(options.jobs.begin(), options.jobs.end(), job) != options.jobs.end()) result.jobs.push_back(job);
   }
   if (!options.views.empty()) result.views.clear();
-  for (const std::string& view : options.views) result.views.push_back(parse_view(view));
+  for (const ViewChoice& view : views) result.views.push_back(view.named);
   result.state.subtexel_bits = options.model.snap_bits;
   result.on_progress = [&console](const std::string& label, int done, int total) { console.progress(label, done, total); };
   result.on_case = [&console](const CaseResult& item) {
@@ -101,19 +107,46 @@ int exit_code(const VerifyResult& result) {
   return kExitCheckFailed;
 }
 
+// The report's folder may not exist yet; it does once the document is written.
+bool is_in_folder(const std::string& file, const std::string& folder) {
+  std::error_code error;
+  const auto resolved = [&](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, error), error);
+  };
+  return !file.empty() && file != "-" && !std::filesystem::exists(file, error) &&
+         resolved(file).parent_path() == resolved(std::filesystem::path(folder) / "x").parent_path();
+}
+
+void print_quiet_outcome(const VerifyResult& result, const std::string& page) {
+  const std::string text = quiet_outcome(result, page);
+  if (text.empty()) return;
+  if (verdict(result) == Verdict::failed)
+    print_error(text);
+  else
+    print_warning(text);
+}
+
 int run(const Options& options) {
   apply(options.common);
   Console console(console_options(options.common));
-  const VerifyOptions verify = verify_options(options, console);
+  if (options.models.empty() && !options.model.texture.empty()) throw UsageError("--texture needs a MODEL");
+  if (options.models.empty() && options.model.flip_v) throw UsageError("--flip-v needs a MODEL");
+  CallFiles files;
+  const VerifyOptions verify = verify_options(options, console, files);
+  for (const std::string& path : options.models) files.add_input(path, "the model");
+  for (const char* name : {"index.html", "verify.json", "classes.csv"})
+    files.add_output((std::filesystem::path(options.report) / name).string(), "--report");
+  files.add_output(options.common.json, "--json");
   require_writable_folder(options.report);
-  require_writable_file(options.common.json);
-  const std::vector<VerifyModel> models = load_models(options, console);
+  if (!is_in_folder(options.common.json, options.report)) require_writable_file(options.common.json);
+  const std::vector<VerifyModel> models = load_models(options, console, files);
 
   raster::CpuRenderer exact;
   OpenedDevice opened = open_device(options.gl, options.common.threads);
   console.line(fmt::format("device   {}", opened.renderer ? opened.renderer->name() : "GL: not available (" + opened.unavailable + ")"));
   const VerifyDevice device{opened.renderer.get(), opened.model, opened.unavailable};
-  const VerifyResult result = run_verify(models, exact, device, verify);
+  const auto compare = [&] { return run_verify(models, exact, device, verify); };
+  const VerifyResult result = options.models.size() == 1 ? naming_the_model(options.models.front(), compare) : compare();
   print_outcome(result, console);
 
   RunInfo run_info = current_run(options.common.start);
@@ -127,10 +160,21 @@ int run(const Options& options) {
   }
   console.line("report: " + file_url(page));
   write_document(options.common, verify_document(result, run_info));
+  if (options.common.quiet) print_quiet_outcome(result, page.string());
   return exit_code(result);
 }
 
 }  // namespace
+
+std::string quiet_outcome(const VerifyResult& result, const std::string& page) {
+  switch (verdict(result)) {
+    case Verdict::agreed: return "";
+    case Verdict::failed: return fmt::format("{} unexplained, see {}", counted(result.total().unexplained, "texel"), page);
+    case Verdict::not_compared: break;
+  }
+  const std::string reason = result.gl_unavailable.empty() ? "" : fmt::format(": GL: not available ({})", result.gl_unavailable);
+  return fmt::format("compared nothing{}, see {}", reason, page);
+}
 
 Verb add_verify(CLI::App& root) {
   const auto options = std::make_shared<Options>();
@@ -141,11 +185,13 @@ Verb add_verify(CLI::App& root) {
       ->type_name("LIST")
       ->delimiter(',')
       ->check(CLI::IsMember(verify_jobs()));
-  app->add_option("--size", options->size, "Frame, WxH or one number (default 1024)")->type_name("WxH");
+  app->add_option("--size", options->size, "Frame, WxH or one number (default: the view file's, else 1024)")
+      ->type_name("WxH")
+      ->check(not_empty());
   app->add_option("--view", options->views, "front, fit, N/24 or a view file; may be repeated (default: fit and front)")
       ->type_name("NAME|FILE")
       ->take_all();
-  app->add_option("--report", options->report, "Folder of the report (default etalon-report)")->type_name("DIR");
+  app->add_option("--report", options->report, "Folder of the report (default etalon-report)")->type_name("DIR")->check(not_empty());
   add_model_options(*app, options->model);
   add_gl_options(*app, options->gl);
   add_common_options(*app, options->common, "  etalon verify\n  etalon verify spot.obj --size 2048 --report spot-report");

@@ -46,27 +46,54 @@ Vec3d vector3(const Json& document, const std::string& file, const char* key) {
   return result;
 }
 
-Camera read_camera(const std::string& file) {
+int side(const Json& document, const std::string& file, const char* key) {
+  const Json item = document.value(key, Json());
+  const bool fits = item.is_number_integer() && item >= 1 && item <= kMaxFrameSize;
+  if (!fits) refuse(file, fmt::format("'{}': expected a whole number from 1 to {}", key, kMaxFrameSize));
+  return item.get<int>();
+}
+
+ViewChoice read_view(const std::string& file) {
   const io::FileBytes bytes = io::read_file(file);
   const Json document = Json::parse(bytes.text().begin(), bytes.text().end(), nullptr, false);
   if (document.is_discarded() || !document.is_object()) refuse(file, "expected a JSON object (etalon/view/1)");
   if (document.value("schema", Json()) != "etalon/view/1") refuse(file, "'schema': expected \"etalon/view/1\"");
-  Camera camera;
+  ViewChoice view;
+  view.named.name = std::filesystem::path(file).filename().string();
+  Camera& camera = view.named.camera.emplace();
   camera.eye = vector3(document, file, "eye");
   camera.target = vector3(document, file, "target");
   camera.up = vector3(document, file, "up");
   camera.tan_half_fov_y = number(document, file, "tan_half_fov_y");
   camera.near = number(document, file, "near");
   camera.far = number(document, file, "far");
-  return camera;
+  if (document.contains("width") || document.contains("height"))
+    view.size = FrameSize{side(document, file, "width"), side(document, file, "height")};
+  try {
+    (void)clip_from_object(camera, 1, 1);  // whether a view is degenerate does not depend on the aspect
+  } catch (const InputError& error) {
+    refuse(file, error.what());
+  }
+  return view;
 }
 
 }  // namespace
 
-validation::NamedView parse_view(const std::string& text) {
-  if (is_built_in(text)) return {text, {}};
+ViewChoice parse_view(const std::string& text) {
+  if (is_built_in(text)) return {{text, {}}, {}};
   if (!std::filesystem::exists(text)) throw UsageError(fmt::format("--view: expected front, fit, 0/24 to 23/24 or a file, got '{}'", text));
-  return {std::filesystem::path(text).filename().string(), read_camera(text)};
+  return read_view(text);
+}
+
+FrameSize frame_size(const std::string& size, const std::vector<ViewChoice>& views) {
+  if (!size.empty()) return parse_size(size);
+  std::optional<FrameSize> result;
+  for (const ViewChoice& view : views) {
+    if (!view.size) continue;
+    if (result && *result != *view.size) throw UsageError("--view: the files name frames of different sizes: give --size");
+    result = view.size;
+  }
+  return result.value_or(FrameSize{1024, 1024});
 }
 
 }  // namespace etalon::cli

@@ -191,6 +191,7 @@ std::span<const std::byte> GltfDocument::buffer(std::uint64_t index) {
         const std::filesystem::path beside = find_beside(folder_, percent_decoded(uri));
         if (beside.empty()) ref.fail(fmt::format("expected a file '{}', got none", printable(uri, 100)));
         buffer.own = read_file(beside);
+        buffer_files_.push_back(beside);
       }
       buffer.bytes = buffer.own.bytes();
     }

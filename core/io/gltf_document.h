@@ -66,6 +66,8 @@ class GltfDocument {
   [[nodiscard]] std::span<const std::byte> buffer_view(std::uint64_t index);
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// The files that buffers were read from so far.
+  [[nodiscard]] const std::vector<std::filesystem::path>& buffer_files() const { return buffer_files_; }
 
  private:
   std::string_view split_container(std::span<const std::byte> content);
@@ -81,6 +83,7 @@ class GltfDocument {
     std::span<const std::byte> bytes;
   };
   std::vector<Buffer> buffers_;
+  std::vector<std::filesystem::path> buffer_files_;
 };
 
 /// The bytes of a "data:…;base64,…" URI; nothing where `uri` is no such. InputError through `at` for malformed base64.

@@ -33,6 +33,7 @@ class GltfReader {
       fail_file(document_.file(), "no faces: expected at least one mesh with triangles in the default scene, got none");
     fill_gaps();
     model_.mesh = welded_by_position(to_mesh(std::move(soup_)));
+    model_.side_files = document_.buffer_files();
     return std::move(model_);
   }
 

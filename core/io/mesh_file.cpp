@@ -24,6 +24,19 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
+/// Names that nobody types for another picture: a drawing of STEM.obj is likely to be called STEM.png. Empty: not embedded.
+std::vector<std::string> embedded_texture_names(const fs::path& model_path, const std::vector<Material>& materials) {
+  const auto embedded_count = std::count_if(materials.begin(), materials.end(), [](const Material& m) { return !m.texture.empty(); });
+  const std::string stem = model_path.stem().string();
+  std::vector<std::string> names(materials.size());
+  int number = 0;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (materials[i].texture.empty()) continue;
+    names[i] = embedded_count == 1 ? stem + "_texture.png" : fmt::format("{}_texture_{}.png", stem, number++);
+  }
+  return names;
+}
+
 enum class MeshFormat { obj, ply, gltf };
 
 /// The format that the content shows without doubt, else `fallback`.
@@ -104,16 +117,23 @@ void write_mesh(const fs::path& path, const Mesh& mesh, const std::vector<Materi
   write_glb(path, mesh, materials);
 }
 
+std::vector<fs::path> mesh_output_files(const fs::path& path, const std::vector<Material>& materials) {
+  std::vector<fs::path> files{path};
+  const std::string extension = lower_extension(path);
+  if (extension == ".obj" && !materials.empty()) files.push_back(fs::path(path).replace_extension(".mtl"));
+  if (extension == ".obj" || extension == ".ply")
+    for (const std::string& name : embedded_texture_names(path, materials))
+      if (!name.empty()) files.push_back(path.parent_path() / name);
+  return files;
+}
+
 std::vector<TextureFile> texture_files(const fs::path& model_path, const std::vector<Material>& materials) {
   std::vector<TextureFile> result(materials.size());
-  const auto embedded_count = std::count_if(materials.begin(), materials.end(), [](const Material& m) { return !m.texture.empty(); });
-  int number = 0;
+  const std::vector<std::string> names = embedded_texture_names(model_path, materials);
   for (std::size_t i = 0; i < materials.size(); ++i) {
     const Material& m = materials[i];
-    const std::string stem = model_path.stem().string();
     if (!m.texture.empty()) {
-      result[i] = {embedded_count == 1 ? stem + ".png" : fmt::format("{}_{}.png", stem, number++),
-                   encode_png(m.texture, model_path.string())};
+      result[i] = {names[i], encode_png(m.texture, model_path.string())};
     } else if (m.texture_path) {
       const fs::path folder = fs::absolute(model_path).parent_path();
       result[i].name = fs::proximate(fs::absolute(*m.texture_path), folder).generic_string();

@@ -20,8 +20,9 @@ struct Material {
 
 struct LoadedModel {
   Mesh mesh;
-  std::vector<Material> materials;  ///< those that faces use, in order of first use; empty where the file names none
-  std::vector<std::string> notes;   ///< one line each: what was skipped or missing, and where
+  std::vector<Material> materials;                ///< those that faces use, in order of first use; empty where the file names none
+  std::vector<std::string> notes;                 ///< one line each: what was skipped or missing, and where
+  std::vector<std::filesystem::path> side_files;  ///< what was read beside `path`, textures apart: material libraries, glTF buffers
 };
 
 /// Reads the mesh at `path`; the extension must be .obj, .ply, .glb or .gltf (any case), the content decides where it says otherwise.
@@ -51,7 +52,7 @@ void flip_v(Mesh& mesh);
 
 /// Writes .obj (+ .mtl, + .png per embedded texture), .ply (binary little-endian) or .glb, each file atomically, the model itself last.
 /// `materials` may be empty; otherwise every entry of mesh.face_materials must be below its size. Textures: an embedded image is
-/// written as STEM.png (several: STEM_0.png, …) or into the GLB; otherwise texture_path is named relative to the model's folder, and for
+/// written as STEM_texture.png (several: STEM_texture_0.png, …) or into the GLB; otherwise texture_path is named relative to the model's folder, and for
 /// GLB its file is embedded.
 /// Lossless: read_mesh gives back positions, colours, faces, the uv of every corner, and the materials bit by bit (wedges are renumbered),
 /// except that glTF rounds v as above, welds vertices of equal position and colour and groups the faces by material, and that PLY keeps the
@@ -59,5 +60,9 @@ void flip_v(Mesh& mesh);
 /// WriteError where a file cannot be written, its extension is none of these, or the format cannot hold the mesh (no faces, numbers that
 /// are not finite, indices or list sizes that do not fit each other).
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials = {});
+
+/// The files that write_mesh would write, the model itself first; nothing is written or checked here.
+[[nodiscard]] std::vector<std::filesystem::path> mesh_output_files(const std::filesystem::path& path,
+                                                                   const std::vector<Material>& materials = {});
 
 }  // namespace etalon::io

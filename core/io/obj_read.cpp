@@ -260,6 +260,7 @@ class ObjReader {
     std::map<std::string, fs::path> textures;
     const fs::path folder = path_.parent_path();
     const auto read_library = [&](const fs::path& library) {
+      model_.side_files.push_back(library);
       for (auto& [name, texture] : read_mtl(library)) textures.try_emplace(name, texture);
     };
     for (const auto& [names, line] : libraries_) {

@@ -29,13 +29,13 @@ TEST_CASE("make, info, render: documents match their schemas") {
   const ScratchFolder folder;
   const json made = checked_document({"make", "swirl", "--faces", "200", "--texture-size", "64", "-o", "swirl.obj"}, "make.json", folder);
   CHECK(made["faces"] == 200);
-  CHECK(folder.listing() == std::vector<std::string>{"swirl.mtl", "swirl.obj", "swirl.png"});
+  CHECK(folder.listing() == std::vector<std::string>{"swirl.mtl", "swirl.obj", "swirl_texture.png"});
 
   const json mesh = checked_document({"info", "swirl.obj"}, "info.json", folder);
   CHECK(mesh["kind"] == "mesh");
   CHECK(mesh["mesh"]["faces"] == 200);
   CHECK(mesh["materials"][0]["texture"]["sha256"] == made["texture"]["sha256"]);
-  const json image = checked_document({"info", "swirl.png"}, "info.json", folder);
+  const json image = checked_document({"info", "swirl_texture.png"}, "info.json", folder);
   CHECK(image["image"]["width"] == 64);
   CHECK(image["image"]["sha256"] == made["texture"]["sha256"]);
 

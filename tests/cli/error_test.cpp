@@ -47,7 +47,19 @@ TEST_CASE("usage: 64") {
   check_refused({"render", "square.obj", "-o", "-", "--json", "-"}, 64, folder, "standard output");
   check_refused({"make", "teapot", "-o", "a.obj"}, 64, folder, "teapot");
   check_refused({"make", "swirl", "-o", "-"}, 64, folder, "FILE");
-  check_refused({"make", "swirl", "--faces", "0", "-o", "a.obj"}, 64, folder, "faces");
+  check_refused({"make", "swirl", "--faces", "0", "-o", "a.obj"}, 64, folder, "expected 2 to 2000000, got 0");
+  check_refused({"make", "swirl", "--faces", "1", "-o", "a.obj"}, 64, folder, "expected 2 to 2000000, got 1");
+  check_refused({"make", "head", "--faces", "71", "-o", "a.obj"}, 64, folder, "expected 72 to 2000000, got 71");
+  check_refused({"make", "head", "--faces", "2000001", "-o", "a.obj"}, 64, folder, "got 2000001");
+  check_refused({"make", "head", "--faces", "many", "-o", "a.obj"}, 64, folder, "faces");
+  check_refused({"make", "head", "-o", ""}, 64, folder, "output");
+  check_refused({"verify", "--texture", "a.png"}, 64, folder, "--texture needs a MODEL");
+  check_refused({"verify", "--flip-v"}, 64, folder, "--flip-v needs a MODEL");
+  check_refused({"verify", "square.obj", "--texture", ""}, 64, folder, "--texture: expected a value");
+  check_refused({"render", "square.obj", "-o", "a.png", "--texture", ""}, 64, folder, "--texture: expected a value");
+  check_refused({"verify", "square.obj", "--report", ""}, 64, folder, "--report: expected a value");
+  check_refused({"info", "square.obj", "--json", ""}, 64, folder, "--json: expected a value");
+  check_refused({"render", "square.obj", "-o", "a.png", "--size", ""}, 64, folder, "--size: expected a value");
   check_refused({"verify", "square.obj", "--jobs", "paint"}, 64, folder, "paint");
   check_refused({"verify", "square.obj", "--context", "egl"}, 64, folder, "not in this version");
   check_refused({"verify", "square.obj", "--threads", "0"}, 64, folder, "threads");
@@ -114,7 +126,16 @@ TEST_CASE("bad textures and views: 4") {
   check_refused({"info", "broken.png"}, 4, folder, "broken.png");
   check_refused({"render", "square.obj", "--view", "text.json", "-o", "a.png"}, 4, folder, "text.json");
   check_refused({"render", "square.obj", "--view", "short.json", "-o", "a.png"}, 4, folder, "eye");
-  check_refused({"render", "square.obj", "--view", "same.json", "-o", "a.png"}, 4, folder, "eye");
+  check_refused({"render", "square.obj", "--view", "same.json", "-o", "a.png"}, 4, folder, "same.json: view: eye");
+  check_refused({"verify", "square.obj", "--view", "same.json"}, 4, folder, "same.json: view: eye");
+  const std::string rest = R"("eye":[0,0,4],"target":[0,0,0],"up":[0,1,0],"tan_half_fov_y":0.5,"near":0.5,"far":10})";
+  for (const char* size : {R"("width":0,"height":5)", R"("width":12289,"height":5)", R"("width":5)", R"("width":5,"height":2.5)",
+                           R"("width":5,"height":"5")", R"("width":5,"height":-5)", R"("width":99999999999999999999,"height":5)"}) {
+    CAPTURE(size);
+    folder.file("size.json", std::string(R"({"schema":"etalon/view/1",)") + size + "," + rest);
+    check_refused({"render", "square.obj", "--view", "size.json", "-o", "a.png"}, 4, folder, "size.json: '");
+    check_refused({"verify", "square.obj", "--view", "size.json", "--size", "16"}, 4, folder, "from 1 to 12288");
+  }
   check_refused({"render", "square.obj", "--view", "other.json", "-o", "a.png"}, 4, folder, "etalon/view/1");
 }
 
@@ -125,6 +146,8 @@ TEST_CASE("outputs that cannot be written: 4, and what was there is untouched") 
   check_refused({"render", "square.obj", "-o", "no/such/folder/a.png"}, 4, folder, "no/such/folder");
   check_refused({"make", "swirl", "-o", "no/such/folder/a.obj"}, 4, folder, "no/such/folder");
   check_refused({"info", "square.obj", "--json", "no/such/folder/a.json"}, 4, folder, "no/such/folder");
+  check_refused({"make", "swirl", "-o", "a.obj", "--json", "no/such/folder/a.json"}, 4, folder, "no/such/folder");
+  check_refused({"verify", "square.obj", "--report", "new", "--json", "new/deeper/a.json"}, 4, folder, "new/deeper");
   check_refused({"verify", "square.obj", "--report", "a_file/report"}, 4, folder, "a_file");
   check_refused({"verify", "square.obj", "--report", "a_file"}, 4, folder, "a_file");
   check_refused({"render", "square.obj", "-o", "."}, 64, folder, ".png or .exr");

@@ -26,8 +26,12 @@ TEST_CASE("--version, before and after the verb") {
   CHECK(run_etalon({"verify", "--version"}).out == root.out);
 }
 
-TEST_CASE("help that cannot be written is an error") {
-  const CommandResult full = run_etalon({"--help"}, {.stdout_path = "/dev/full"});
-  CHECK(full.exit_code == 4);
-  CHECK(full.error_lines().size() == 1);
+TEST_CASE("help or a version that cannot be written is an error") {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"--version"}, {"verify", "--help"}, {"verify", "--version"}}) {
+    CAPTURE(arguments.back());
+    const CommandResult full = run_etalon(arguments, {.stdout_path = "/dev/full"});
+    CHECK(full.exit_code == 4);
+    CHECK(full.error_lines().size() == 1);
+  }
 }

@@ -12,7 +12,7 @@ using Json = nlohmann::json;
 
 const std::set<std::string> kKeywords{
     "$schema", "$defs",       "$ref", "title", "type",    "properties", "required", "additionalProperties",
-    "items",   "prefixItems", "enum", "const", "minimum", "pattern"};
+    "items",   "prefixItems", "enum", "const", "minimum", "maximum",    "pattern"};
 
 class Validator {
  public:
@@ -30,6 +30,8 @@ class Validator {
       report(at, "expected one of " + schema["enum"].dump());
     if (schema.contains("minimum") && value.is_number() && value.get<double>() < schema["minimum"].get<double>())
       report(at, "below the minimum");
+    if (schema.contains("maximum") && value.is_number() && value.get<double>() > schema["maximum"].get<double>())
+      report(at, "above the maximum");
     if (schema.contains("pattern") && value.is_string() &&
         !std::regex_search(value.get<std::string>(), std::regex(schema["pattern"].get<std::string>())))
       report(at, "does not match the pattern");

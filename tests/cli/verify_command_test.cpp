@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/verify_command.h"
 #include "tests/cli/run_command.h"
 #include "tests/support/skip.h"
 
@@ -87,10 +88,77 @@ TEST_CASE("views: built-in names and a file") {
   CHECK(document["jobs"][0]["cases"][2]["view"] == "3/24");
 }
 
-TEST_CASE("--quiet prints nothing") {
+TEST_CASE("a view file says how large the frame is, unless --size does") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  const auto view = [&](const char* name, const char* size) {
+    folder.file(name, std::string(R"({"schema":"etalon/view/1","eye":[0,0,4],"target":[0,0,0],"up":[0,1,0],"tan_half_fov_y":0.5,)") + size +
+                          R"("near":0.5,"far":10})");
+  };
+  view("wide.json", R"("width":48,"height":20,)");
+  view("tall.json", R"("width":20,"height":48,)");
+  view("any.json", "");
+  const auto size_of = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", "square.obj", "-o", "a.png", "--json", "-"});
+    const json document = json::parse(run_etalon(arguments, {.folder = folder.path()}).out);
+    return std::pair<int, int>(document["width"], document["height"]);
+  };
+  CHECK(size_of({"--view", "wide.json"}) == std::pair(48, 20));
+  CHECK(size_of({"--view", "wide.json", "--size", "16"}) == std::pair(16, 16));
+  CHECK(size_of({"--view", "any.json"}) == std::pair(1024, 1024));
+  const std::vector<std::string> verify{"verify", "square.obj", "--jobs", "render", "--view", "wide.json", "--view", "any.json"};
+  const CommandResult same = run_etalon(verify, {.folder = folder.path()});
+  CHECK(same.out.find(": 48x20, ") != std::string::npos);
+  std::vector<std::string> differing = verify;
+  differing.insert(differing.end(), {"--view", "tall.json"});
+  const CommandResult refused = run_etalon(differing, {.folder = folder.path()});
+  CHECK(refused.exit_code == 64);
+  CHECK(refused.err.find("give --size") != std::string::npos);
+}
+
+TEST_CASE("the document may go into the folder of a report that is still to be made") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  const CommandResult result = run_etalon(
+      {"verify", "square.obj", "--size", "16", "--report", "new/report", "--json", "new/report/mine.json"}, {.folder = folder.path()});
+  CAPTURE(result.err);
+  CHECK((result.exit_code == 0 || result.exit_code == 1));  // 1: no OpenGL on this machine
+  CHECK(read_text(folder.path() / "new/report/mine.json").find("etalon/verify/1") != std::string::npos);
+}
+
+TEST_CASE("--quiet: one line on standard error where the exit code is not 0") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  const CommandResult result = run_etalon({"verify", "square.obj", "--size", "16", "--quiet"},
+                                          {.folder = folder.path(), .environment = {"MESA_GL_VERSION_OVERRIDE=2.1"}});
+  CHECK(result.exit_code == 1);
+  CHECK(result.out.empty());
+  REQUIRE(result.error_lines().size() == 1);
+  CHECK(result.error_lines()[0].rfind("etalon: warning: compared nothing: GL: not available (", 0) == 0);
+
+  etalon::validation::VerifyResult failed;
+  failed.jobs.resize(1);
+  failed.jobs[0].cases.resize(1);
+  failed.jobs[0].cases[0].tally = {.texels = 10, .identical = 8, .unexplained = 2};
+  CHECK(etalon::cli::quiet_outcome(failed, "report/index.html") == "2 texels unexplained, see report/index.html");
+  failed.jobs[0].cases[0].tally = {.texels = 10, .identical = 9, .unexplained = 1};
+  CHECK(etalon::cli::quiet_outcome(failed, "p") == "1 texel unexplained, see p");
+}
+
+TEST_CASE("a line stays one line whatever a file's name holds") {
+  const ScratchFolder folder;
+  folder.file("red\x1b[31m\nname.obj", square_obj());
+  const CommandResult result =
+      run_etalon({"render", "red\x1b[31m\nname.obj", "--size", "16", "-o", "a\x1b[31m\n.png"}, {.folder = folder.path()});
+  CHECK(result.exit_code == 0);
+  CHECK(result.out.find('\x1b') == std::string::npos);
+  CHECK(result.out.find("a\\x1b[31m .png: 16x16, 2 triangles") != std::string::npos);
+}
+
+TEST_CASE("--quiet prints nothing where the sides agree") {
   const ScratchFolder folder;
   folder.file("square.obj", square_obj());
   const CommandResult result = run_etalon({"verify", "square.obj", "--size", "16", "--quiet"}, {.folder = folder.path()});
   CHECK(result.out.empty());
-  CHECK(result.err.empty());
+  CHECK(result.err.empty() == (result.exit_code == 0));
 }

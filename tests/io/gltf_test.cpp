@@ -97,6 +97,7 @@ TEST_CASE("gltf: text with its buffer inside, and beside under an escaped name")
   folder.put("my buffer.bin", kBinary);
   const std::string beside = with(kJson, R"({"byteLength":108})", R"({"byteLength":108,"uri":"my%20buffer.bin"})");
   CHECK(read_mesh(folder.put("m.gltf", beside)).mesh == mesh);
+  CHECK(read_mesh(folder / "m.gltf").side_files == std::vector<std::filesystem::path>{folder / "my buffer.bin"});
   CHECK(error_of("m.gltf", beside) == ": buffers[0]: expected a file 'my%20buffer.bin', got none");
   CHECK(error_of("m.gltf", kJson) == ": buffers[0]: expected a 'uri' or the binary chunk of a .glb, got neither");
 }

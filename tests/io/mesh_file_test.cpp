@@ -62,7 +62,27 @@ TEST_CASE("mesh file: materials and textures come back from every format") {
       if (name != std::string("my model.ply")) CHECK(back.materials[i].name == model.materials[i].name);
     }
     CHECK(back.notes.empty());
+    CHECK(back.side_files.size() == (name == std::string("my model.obj") ? 1 : 0));
+    for (const std::filesystem::path& file : mesh_output_files(folder / name, model.materials)) CHECK(std::filesystem::exists(file));
   }
+}
+
+TEST_CASE("mesh file: the files that are written, and no picture called like the model") {
+  const ScratchFolder folder;
+  LoadedModel model = test::textured_model();
+  model.mesh.face_materials = {0, 0, 0};
+  model.materials = {{"a", {}, test::random_image(3, 3, kRgb8, 9)}};
+  using Paths = std::vector<std::filesystem::path>;
+  CHECK(mesh_output_files("d/m.obj", model.materials) == Paths{"d/m.obj", "d/m.mtl", "d/m_texture.png"});
+  CHECK(mesh_output_files("m.PLY", model.materials) == Paths{"m.PLY", "m_texture.png"});
+  CHECK(mesh_output_files("m.glb", model.materials) == Paths{"m.glb"});
+  CHECK(mesh_output_files("m.obj") == Paths{"m.obj"});
+  write_mesh(folder / "m.obj", model.mesh, model.materials);
+  CHECK_FALSE(std::filesystem::exists(folder / "m.png"));
+  CHECK(test::content_of(folder / "m.mtl") == "newmtl a\nKd 1 1 1\nmap_Kd m_texture.png\n");
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / ".")) count += entry.is_regular_file();
+  CHECK(count == 3);
 }
 
 TEST_CASE("mesh file: a texture in a file is named relative to the model, and embedded by GLB") {
