@@ -29,8 +29,8 @@ double crest_field(const Vec3d& q) {
 }  // namespace
 
 const HeadEye& head_eye() {
-  static const HeadEye eye{{0.325, 0.335, 0.40}, 0.225, normalized(Vec3d(0.70, 0.08, 0.71))};
-  return eye;
+  static const HeadEye kEye{{0.325, 0.335, 0.40}, 0.225, normalized(Vec3d(0.70, 0.08, 0.71))};
+  return kEye;
 }
 
 double mouth_height(double z) {
