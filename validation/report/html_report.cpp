@@ -176,7 +176,7 @@ std::string job_sections(const VerifyResult& result) {
   return html;
 }
 
-const char* kMeanings = R"(<h2>What the classes mean</h2><dl class="meaning">
+constexpr const char* kMeanings = R"(<h2>What the classes mean</h2><dl class="meaning">
 <dt class="identical"><i class="swatch"></i> identical</dt><dd>The same bytes.</dd>
 <dt class="rounding"><i class="swatch"></i> rounding</dt><dd>The same decisions; the device's value is a legal rounding of some number within its error bound of the exact one.</dd>
 <dt class="tie"><i class="swatch"></i> tie</dt><dd>The device chose the neighbouring texel or the other of two depths. The exact margin of that decision lies within the bound, and the value is the one that the other choice gives: proven by redrawing it.</dd>
