@@ -85,7 +85,9 @@ using Ubyte = unsigned char;
   F(kMirroredRepeat, MIRRORED_REPEAT, 0x8370) \
   F(kTexture0, TEXTURE0, 0x84C0) \
   F(kArrayBuffer, ARRAY_BUFFER, 0x8892) \
+  F(kElementArrayBuffer, ELEMENT_ARRAY_BUFFER, 0x8893) \
   F(kStreamDraw, STREAM_DRAW, 0x88E0) \
+  F(kStaticDraw, STATIC_DRAW, 0x88E4) \
   F(kFragmentShader, FRAGMENT_SHADER, 0x8B30) \
   F(kVertexShader, VERTEX_SHADER, 0x8B31) \
   F(kCompileStatus, COMPILE_STATUS, 0x8B81) \
@@ -139,6 +141,8 @@ ETALON_GL_CONSTANTS(ETALON_GL_DECLARE_CONSTANT)
   F(void, read_buffer, ReadBuffer, (Enum buffer)) \
   F(void, draw_buffers, DrawBuffers, (Sizei count, const Enum* buffers)) \
   F(void, draw_arrays, DrawArrays, (Enum mode, Int first, Sizei count)) \
+  F(void, draw_elements, DrawElements, (Enum mode, Sizei count, Enum type, const void* offset)) \
+  F(void, finish, Finish, ()) \
   F(void, clear_bufferfv, ClearBufferfv, (Enum buffer, Int index, const Float* value)) \
   F(void, clear_bufferuiv, ClearBufferuiv, (Enum buffer, Int index, const Uint* value)) \
   F(void, gen_buffers, GenBuffers, (Sizei count, Uint* ids)) \
@@ -160,6 +164,7 @@ ETALON_GL_CONSTANTS(ETALON_GL_DECLARE_CONSTANT)
   F(void, delete_framebuffers, DeleteFramebuffers, (Sizei count, const Uint* ids)) \
   F(void, bind_framebuffer, BindFramebuffer, (Enum target, Uint id)) \
   F(void, framebuffer_renderbuffer, FramebufferRenderbuffer, (Enum target, Enum attachment, Enum renderbuffer_target, Uint id)) \
+  F(void, framebuffer_texture_2d, FramebufferTexture2D, (Enum target, Enum attachment, Enum texture_target, Uint texture, Int level)) \
   F(Enum, check_framebuffer_status, CheckFramebufferStatus, (Enum target)) \
   F(void, gen_textures, GenTextures, (Sizei count, Uint* ids)) \
   F(void, delete_textures, DeleteTextures, (Sizei count, const Uint* ids)) \
