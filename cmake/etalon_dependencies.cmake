@@ -4,6 +4,7 @@ find_package(Threads REQUIRED)
 find_package(TBB REQUIRED)               # threads: deterministic work split over a well-kept scheduler
 find_package(glm REQUIRED)               # small vectors
 find_package(fmt REQUIRED)               # gcc 12 has no <format>
+find_package(hwy REQUIRED)               # SIMD: one source for SSE, AVX2, AVX-512 and NEON, chosen at run time
 find_package(nlohmann_json REQUIRED)     # JSON reports, view files
 if(ETALON_IO)
   # Debian's OpenImageIO config names the targets of openimageio-tools, which must be installed too.

@@ -6,40 +6,12 @@
 
 #include "core/base/float_environment.h"
 #include "core/base/parallel.h"
+#include "raster/fast/tile_shader.h"
+#include "raster/tile_bins.h"
 #include "raster/visibility.h"
 
 namespace etalon::raster {
 namespace {
-
-struct TileGrid {
-  int columns, rows;
-  std::vector<std::vector<std::uint32_t>> bins;  ///< triangle ids per tile, ascending
-};
-
-struct TileBox {
-  std::int16_t x0 = 0, x1 = -1, y0 = 0, y1 = -1;
-};
-
-TileGrid bin_triangles(const DrawList& list, const Frame& frame) {
-  std::vector<TileBox> boxes(list.triangles.size());
-  parallel_for_blocks(boxes.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto& corner = list.triangles[t];
-      const Edges edges = make_edges(list.vertices[corner[0]], list.vertices[corner[1]], list.vertices[corner[2]], frame);
-      if (edges.i_min > edges.i_max || edges.j_min > edges.j_max) continue;
-      const auto tile = [](int texel) { return static_cast<std::int16_t>(texel / kTileSize); };
-      boxes[t] = {tile(edges.i_min), tile(edges.i_max), tile(edges.j_min), tile(edges.j_max)};
-    }
-  });
-  TileGrid grid{(frame.width + kTileSize - 1) / kTileSize, (frame.height + kTileSize - 1) / kTileSize, {}};
-  grid.bins.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-  for (std::size_t t = 0; t < boxes.size(); ++t)
-    for (int y = boxes[t].y0; y <= boxes[t].y1; ++y)
-      for (int x = boxes[t].x0; x <= boxes[t].x1; ++x)
-        grid.bins[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.columns) + static_cast<std::size_t>(x)].push_back(
-            static_cast<std::uint32_t>(t));
-  return grid;
-}
 
 EvaluationCounters shade_tile(const DrawList& list, const Frame& frame, const Tile& tile, const TileVisibility& visible,
                               Evaluation evaluation, std::vector<Image>& images) {
@@ -71,6 +43,16 @@ EvaluationCounters shade_tile(const DrawList& list, const Frame& frame, const Ti
   return counters;
 }
 
+// Per target, the texel where nothing is drawn.
+std::vector<std::vector<std::byte>> clear_texels(const Frame& frame) {
+  std::vector<std::vector<std::byte>> clear;
+  std::vector<std::byte*> texels;
+  for (const TargetSpec& target : frame.targets) clear.emplace_back(static_cast<std::size_t>(bytes_per_texel(target.format)));
+  for (std::vector<std::byte>& texel : clear) texels.push_back(texel.data());
+  store_clear(frame, texels.data());
+  return clear;
+}
+
 }  // namespace
 
 std::string CpuRenderer::name() const { return fmt::format("etalon cpu, contract {}", kRasterContractVersion); }
@@ -84,18 +66,20 @@ std::vector<Image> CpuRenderer::render(const DrawList& list, const Frame& frame)
                                 return t.content == TargetContent::margins;
                               });
 
-  const TileGrid grid = bin_triangles(list, frame);
-  std::vector<EvaluationCounters> per_tile(grid.bins.size());
-  parallel_for(grid.bins.size(), [&](std::size_t n) {
-    Tile tile;
-    tile.x0 = static_cast<int>(n % static_cast<std::size_t>(grid.columns)) * kTileSize;
-    tile.y0 = static_cast<int>(n / static_cast<std::size_t>(grid.columns)) * kTileSize;
-    tile.width = std::min(kTileSize, frame.width - tile.x0);
-    tile.height = std::min(kTileSize, frame.height - tile.y0);
-    TileVisibility visible;
-    resolve_visibility(list, frame, tile, grid.bins[n], keep_runner_up, visible);
-    per_tile[n] = shade_tile(list, frame, tile, visible, evaluation_, images);
-  });
+  const TileBins bins(list, frame);
+  std::vector<EvaluationCounters> per_tile(bins.tiles());
+  if (evaluation_ == Evaluation::vectorised) {
+    const fast::RunContext context = {
+        list, frame, *fast::kernels_for(simd_level()), fast::plane_layout(list, frame), fast::largest_texels(list), clear_texels(frame)};
+    parallel_for(bins.tiles(), [&](std::size_t n) { per_tile[n] = fast::draw_tile(context, bins.tile(n), bins.triangles(n), images); });
+  } else {
+    parallel_for(bins.tiles(), [&](std::size_t n) {
+      const Tile tile = bins.tile(n);
+      TileVisibility visible;
+      resolve_visibility(list, frame, tile, bins.triangles(n), keep_runner_up, visible);
+      per_tile[n] = shade_tile(list, frame, tile, visible, evaluation_, images);
+    });
+  }
   counters_ = {};
   for (const EvaluationCounters& c : per_tile) counters_ += c;
   return images;

@@ -11,7 +11,7 @@ inline constexpr int kRasterContractVersion = 1;
 
 class CpuRenderer : public Renderer {
  public:
-  explicit CpuRenderer(Evaluation evaluation = Evaluation::filtered) : evaluation_(evaluation) {}
+  explicit CpuRenderer(Evaluation evaluation = Evaluation::vectorised) : evaluation_(evaluation) {}
 
   [[nodiscard]] std::string name() const override;
   [[nodiscard]] RasterState supported_state(const RasterState& wanted) const override { return wanted; }

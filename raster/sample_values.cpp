@@ -110,26 +110,30 @@ void store_bound_terms(SampleNumbers& numbers, const DrawList& list, const Draw&
 
 }  // namespace
 
+void store_target(const DrawList& list, const Draw& draw, const Frame& frame, const TargetSpec& target, const TriangleSetup& setup,
+                  std::uint32_t triangle, int i, int j, SampleDepth depth, Evaluation evaluation, std::byte* texel,
+                  EvaluationCounters& counters) {
+  SampleNumbers numbers(setup, i, j, evaluation == Evaluation::exact, counters);
+  switch (target.content) {
+    case TargetContent::color: store_color(numbers, list, draw, target, frame, texel); break;
+    case TargetContent::triangle_id: put(triangle, texel); break;
+    case TargetContent::barycentrics:
+      for (int c = 0; c < 3; ++c) store_barycentric(numbers, c, channel_store(target, c, frame), channel_at(texel, target, c));
+      break;
+    case TargetContent::coordinate:
+      for (int c = 0; c < 2; ++c)
+        store_attribute(numbers, static_cast<Attribute>(kU + c), channel_store(target, c, frame), channel_at(texel, target, c));
+      break;
+    case TargetContent::depth: put(depth.stored, texel); break;
+    case TargetContent::margins: store_margins(numbers, list, draw, depth, texel); break;
+    case TargetContent::bound_terms: store_bound_terms(numbers, list, draw, texel); break;
+  }
+}
+
 void store_sample(const DrawList& list, const Draw& draw, const Frame& frame, const TriangleSetup& setup, std::uint32_t triangle, int i,
                   int j, SampleDepth depth, Evaluation evaluation, std::byte* const* texels, EvaluationCounters& counters) {
-  SampleNumbers numbers(setup, i, j, evaluation == Evaluation::exact, counters);
-  for (std::size_t n = 0; n < frame.targets.size(); ++n) {
-    const TargetSpec& target = frame.targets[n];
-    switch (target.content) {
-      case TargetContent::color: store_color(numbers, list, draw, target, frame, texels[n]); break;
-      case TargetContent::triangle_id: put(triangle, texels[n]); break;
-      case TargetContent::barycentrics:
-        for (int c = 0; c < 3; ++c) store_barycentric(numbers, c, channel_store(target, c, frame), channel_at(texels[n], target, c));
-        break;
-      case TargetContent::coordinate:
-        for (int c = 0; c < 2; ++c)
-          store_attribute(numbers, static_cast<Attribute>(kU + c), channel_store(target, c, frame), channel_at(texels[n], target, c));
-        break;
-      case TargetContent::depth: put(depth.stored, texels[n]); break;
-      case TargetContent::margins: store_margins(numbers, list, draw, depth, texels[n]); break;
-      case TargetContent::bound_terms: store_bound_terms(numbers, list, draw, texels[n]); break;
-    }
-  }
+  for (std::size_t n = 0; n < frame.targets.size(); ++n)
+    store_target(list, draw, frame, frame.targets[n], setup, triangle, i, j, depth, evaluation, texels[n], counters);
 }
 
 void store_clear(const Frame& frame, std::byte* const* texels) {

@@ -25,8 +25,8 @@ float stored_depth(const EdgeValues& e, std::int64_t area2, const ExactTriple& z
   return lo == hi ? lo : exact_depth(e, area2, z);
 }
 
-void resolve_visibility(const DrawList& list, const Frame& frame, const Tile& tile, const std::vector<std::uint32_t>& ids,
-                        bool keep_runner_up, TileVisibility& result) {
+void resolve_visibility(const DrawList& list, const Frame& frame, const Tile& tile, std::span<const std::uint32_t> ids, bool keep_runner_up,
+                        TileVisibility& result) {
   const auto texels = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
   result.triangle.assign(texels, kNoTriangle);
   result.depth.assign(texels, 1.0f);

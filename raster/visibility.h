@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/draw/draw_list.h"
@@ -28,7 +29,7 @@ struct TileVisibility {
 [[nodiscard]] float stored_depth(const EdgeValues& e, std::int64_t area2, const ExactTriple& z);
 
 /// Draws the triangles `ids` (ascending) into a tile.
-void resolve_visibility(const DrawList& list, const Frame& frame, const Tile& tile, const std::vector<std::uint32_t>& ids,
-                        bool keep_runner_up, TileVisibility& result);
+void resolve_visibility(const DrawList& list, const Frame& frame, const Tile& tile, std::span<const std::uint32_t> ids, bool keep_runner_up,
+                        TileVisibility& result);
 
 }  // namespace etalon::raster

@@ -48,6 +48,7 @@ const std::vector<OutsideLibrary> kOutsideLibraries = {
     {"OpenEXR and Imath", {"OpenEXR/", "Imath/", "Imf", "Imath", "half.h"}, {"core/io", "tests/io"}},
     {"a mesh parser", {"tiny_obj_loader.h", "tiny_gltf.h", "assimp/"}, {"core/io", "tests/io"}},
     {"OpenGL and the dynamic loader", {"GL/", "GLES", "EGL/", "KHR/", "dlfcn.h"}, {"gpu", "tests/gpu"}},
+    {"Highway", {"hwy/"}, {"raster"}},
     {"Boost", {"boost/"}, {"validation/reference", "tests"}},
     {"CLI11", {"CLI/"}, {"cli"}},
     {"doctest", {"doctest/"}, {"tests"}},

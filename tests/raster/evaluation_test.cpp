@@ -3,6 +3,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/rng.h"
+#include "raster/simd_level.h"
 #include "tests/raster/draw_helpers.h"
 
 using namespace etalon;
@@ -70,23 +71,37 @@ const std::vector<TargetSpec> kEveryTarget = {{TargetContent::color, kRgba8},
 
 }  // namespace
 
-TEST_CASE("enclosures and plain integers store the same bytes") {
+TEST_CASE("vectors, enclosures and plain integers store the same bytes, at every SIMD level") {
   Rng rng(2026);
-  raster::EvaluationCounters total;
-  for (int round = 0; round < 24; ++round) {
+  raster::EvaluationCounters total, total_vectorised;
+  for (int round = 0; round < 48; ++round) {
     Frame frame = frame_of(90, 70, kEveryTarget);
-    frame.state.subtexel_bits = 1 + round % 12;
+    frame.state.subtexel_bits = 1 + round % 16;
+    frame.guard = round % 16 > 12 ? 20 : 2048;
     frame.state.half_rounding = static_cast<HalfRounding>(round / 2 % 2);
+    frame.state.depth_test = round % 5 != 0;
     const DrawList list = random_list(rng, frame, round % 2 == 1);
-    raster::CpuRenderer filtered, exact(raster::Evaluation::exact);
+    raster::CpuRenderer filtered(raster::Evaluation::filtered), exact(raster::Evaluation::exact);
     const auto a = filtered.render(list, frame), b = exact.render(list, frame);
     for (std::size_t n = 0; n < a.size(); ++n) CHECK_MESSAGE(a[n] == b[n], "round ", round, ", ", to_string(frame.targets[n].content));
     CHECK(exact.counters().exact_path == exact.counters().values);
     total += filtered.counters();
+    for (const raster::SimdLevel level : raster::available_simd_levels()) {
+      raster::set_simd_level(level);
+      raster::CpuRenderer vectorised(raster::Evaluation::vectorised);
+      const auto c = vectorised.render(list, frame);
+      for (std::size_t n = 0; n < a.size(); ++n)
+        CHECK_MESSAGE(c[n] == b[n], to_string(level), ", round ", round, ", ", to_string(frame.targets[n].content), " ",
+                      to_string(frame.targets[n].format));
+      total_vectorised += vectorised.counters();
+    }
   }
+  raster::set_simd_level(raster::available_simd_levels().back());
   // Ties are planted, yet doubles decide nearly everything; were the enclosures never used, the two ways would be one.
   CHECK(total.exact_path > 0);
   CHECK(total.exact_path < total.values / 100);
+  MESSAGE("vectorised: ", total_vectorised.values, " values, ", total_vectorised.scalar, " scalar, ", total_vectorised.exact_path,
+          " exact");
 }
 
 TEST_CASE("the same bytes on 1, 2 and 7 threads") {

@@ -1,0 +1,70 @@
+// Compiled once per instruction set by Highway (foreach_target includes this file again). Contraction is allowed here: every bound holds
+// for fused and unfused arithmetic alike, so the bytes cannot depend on it.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/fast/kernels.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+#include "raster/fast/kernels.h"
+#include "raster/fast/planes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace etalon::raster::fast::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// clang-format off
+// Each builds on the one before.
+#include "raster/fast/plane_kernels.inc"
+#include "raster/fast/texel_kernels.inc"
+#include "raster/fast/store_kernels.inc"
+#include "raster/fast/depth_kernels.inc"
+// clang-format on
+
+const Kernels* kernels() {
+  static const Kernels table = {positions,      attribute, nearest_axis, linear_axis, texel_offsets, bilinear,
+                                bilinear_rgba8, to_unorm,  to_float32,   depth,       depth_test,    static_cast<int>(hn::Lanes(kDoubles))};
+  return &table;
+}
+
+}  // namespace etalon::raster::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace etalon::raster::fast {
+
+const Kernels* kernels_for(SimdLevel level) {
+  [[maybe_unused]] const auto runs_here = [](std::int64_t target) { return (hwy::SupportedTargets() & target) != 0; };
+  switch (level) {
+    case SimdLevel::baseline: return HWY_STATIC_DISPATCH(kernels)();
+    case SimdLevel::ssse3:
+#if HWY_TARGETS & HWY_SSSE3
+      if (runs_here(HWY_SSSE3)) return N_SSSE3::kernels();
+#endif
+      return nullptr;
+    case SimdLevel::sse4:
+#if HWY_TARGETS & HWY_SSE4
+      if (runs_here(HWY_SSE4)) return N_SSE4::kernels();
+#endif
+      return nullptr;
+    case SimdLevel::avx2:
+#if HWY_TARGETS & HWY_AVX2
+      if (runs_here(HWY_AVX2)) return N_AVX2::kernels();
+#endif
+      return nullptr;
+    case SimdLevel::avx512:
+#if HWY_TARGETS & HWY_AVX3
+      if (runs_here(HWY_AVX3)) return N_AVX3::kernels();
+#endif
+      return nullptr;
+    case SimdLevel::neon:
+#if HWY_TARGETS & HWY_NEON
+      if (runs_here(HWY_NEON)) return N_NEON::kernels();
+#endif
+      return nullptr;
+  }
+  return nullptr;
+}
+
+}  // namespace etalon::raster::fast
+#endif

@@ -1,0 +1,189 @@
+#include "raster/fast/tile_samples.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "raster/edges.h"
+#include "raster/triangle_setup.h"
+
+namespace etalon::raster::fast {
+namespace {
+
+// Spans at most this long are found and tested texel by texel.
+constexpr int kNarrow = 4;
+
+// An edge function over the tile's texels, biased so that "inside" is >= 0: value at the tile's first sample, change per column and row.
+struct BiasedEdge {
+  std::int64_t origin, x, y;
+};
+
+// The texels of [first, last] where value + x·column >= 0, by one product and an exact correction.
+void clip_span(std::int64_t value, std::int64_t x, double reciprocal, int& first, int& last) {
+  if (x == 0) {
+    if (value < 0) last = first - 1;
+    return;
+  }
+  // The crossing −value/x; clamped to the tile its double errs by less than 1, and the loops below make it exact.
+  const double crossing = std::clamp(static_cast<double>(value) * -reciprocal, -2.0, kTileSize + 1.0);
+  int column = static_cast<int>(crossing);
+  if (x > 0) {  // inside from some column on
+    while (value + x * (column - 1) >= 0 && column > first) --column;
+    while (column <= last && value + x * column < 0) ++column;
+    first = std::max(first, column);
+  } else {  // inside up to some column
+    while (value + x * (column + 1) >= 0 && column < last) ++column;
+    while (column >= first && value + x * column < 0) --column;
+    last = std::min(last, column);
+  }
+}
+
+// Window depth over one triangle's texels of the tile, as a plane with a bound; the exact number where that cannot decide.
+class DepthPlane {
+ public:
+  DepthPlane(const RasterVertex* const v[3], const Edges& edges, int column, int row, int columns, int rows)
+      : vertices_{v[0], v[1], v[2]}, edges_(edges), column_(column), row_(row) {
+    const double z0 = canonical(v[0]->z), d1 = canonical(v[1]->z) - z0, d2 = canonical(v[2]->z) - z0;
+    anchor_ = z0;
+    if (d1 == 0 && d2 == 0) return;
+    const EdgeValues e = edges.at(column, row);
+    const double reciprocal = 1 / static_cast<double>(edges.area2);
+    const double s1 = d1 * reciprocal, s2 = d2 * reciprocal;
+    const double a1 = static_cast<double>(e[1]) * s1, a2 = static_cast<double>(e[2]) * s2;
+    const auto step = [&](std::int64_t along) { return static_cast<double>(along << edges.subtexel_bits); };
+    const double x1 = step(-edges.dy[1]) * s1, x2 = step(-edges.dy[2]) * s2, y1 = step(edges.dx[1]) * s1, y2 = step(edges.dx[2]) * s2;
+    anchor_ += a1 + a2, x_ = x1 + x2, y_ = y1 + y2;
+    // As the affine bound in planes.cpp: 12·2^-53 of the magnitudes and 4·2^-53 of the sum, doubled.
+    error_ = 0x1p-48 * (z0 + std::abs(a1) + std::abs(a2) + columns * (std::abs(x1) + std::abs(x2)) + rows * (std::abs(y1) + std::abs(y2)));
+  }
+
+  /// Stored depths of `lanes` texels from (column, row) of the frame on.
+  void span(int column, int row, int lanes, const Kernels& kernels, float* result, EvaluationCounters& counters) const {
+    const double z = anchor_ + y_ * (row - row_) + x_ * (column - column_);
+    counters.values += static_cast<std::uint64_t>(lanes);
+    if (lanes > kNarrow) {
+      for (LaneMask open = kernels.depth(z, x_, error_, lanes, result); open != 0; open &= open - 1)
+        result[std::countr_zero(open)] = exact(column + std::countr_zero(open), row, counters);
+      return;
+    }
+    for (int n = 0; n < lanes; ++n) {
+      const double value = z + x_ * n;
+      const float low = static_cast<float>(value - error_), high = static_cast<float>(value + error_);
+      result[n] = low == high ? low + 0.0f : exact(column + n, row, counters);
+    }
+  }
+
+ private:
+  [[nodiscard]] float exact(int column, int row, EvaluationCounters& counters) const {
+    ++counters.scalar;
+    return stored_depth(edges_.at(column, row), edges_.area2, exact_triple(vertices_[0]->z, vertices_[1]->z, vertices_[2]->z));
+  }
+  const RasterVertex* vertices_[3];
+  const Edges& edges_;
+  int column_, row_;
+  double anchor_ = 0, x_ = 0, y_ = 0, error_ = 0;
+};
+
+class SampleFinder {
+ public:
+  SampleFinder(const DrawList& list, const Frame& frame, const Tile& tile, SampleNeeds needs, const Kernels& kernels, TileSamples& samples,
+               EvaluationCounters& counters)
+      : list_(list), frame_(frame), tile_(tile), needs_(needs), kernels_(kernels), samples_(samples), counters_(counters) {}
+
+  void draw(std::uint32_t id, std::uint32_t slot) {
+    const auto& corner = list_.triangles[id];
+    const RasterVertex* const v[3] = {&list_.vertices[corner[0]], &list_.vertices[corner[1]], &list_.vertices[corner[2]]};
+    const Edges edges = make_edges(*v[0], *v[1], *v[2], frame_);
+    if (edges.area2 == 0) return;
+    const int column0 = std::max(edges.i_min - tile_.x0, 0), column1 = std::min(edges.i_max - tile_.x0, tile_.width - 1);
+    const int row0 = std::max(edges.j_min - tile_.y0, 0), row1 = std::min(edges.j_max - tile_.y0, tile_.height - 1);
+    if (column0 > column1 || row0 > row1) return;
+
+    BiasedEdge e[3];
+    const EdgeValues origin = edges.at(tile_.x0, tile_.y0);
+    for (int k = 0; k < 3; ++k)
+      e[k] = {origin[k] - (edges.owns[k] ? 0 : 1), -(edges.dy[k] << edges.subtexel_bits), edges.dx[k] << edges.subtexel_bits};
+    const bool narrow = column1 - column0 < kNarrow;
+    double reciprocal[3] = {};
+    if (!narrow)
+      for (int k = 0; k < 3; ++k) reciprocal[k] = 1 / static_cast<double>(e[k].x);  // unused where infinite
+
+    std::optional<DepthPlane> plane;  // made for the first span that is not empty
+    for (int row = row0; row <= row1; ++row) {
+      std::int64_t at[3];
+      for (int k = 0; k < 3; ++k) at[k] = e[k].origin + row * e[k].y;
+      int first = column0, last = column1;
+      if (narrow) {
+        narrow_span(e, at, first, last);
+      } else {
+        for (int k = 0; k < 3; ++k) clip_span(at[k], e[k].x, reciprocal[k], first, last);
+      }
+      if (first > last) continue;
+      if (needs_.depth && !plane) plane.emplace(v, edges, tile_.x0 + column0, tile_.y0 + row0, column1 - column0, row1 - row0);
+      write_span(first, last, row, slot, plane ? &*plane : nullptr);
+    }
+  }
+
+ private:
+  static void narrow_span(const BiasedEdge e[3], const std::int64_t at[3], int& first, int& last) {
+    const auto inside = [&](int column) {
+      return ((at[0] + column * e[0].x) | (at[1] + column * e[1].x) | (at[2] + column * e[2].x)) >= 0;
+    };
+    while (first <= last && !inside(first)) ++first;
+    while (last > first && !inside(last)) --last;
+  }
+
+  void write_span(int first, int last, int row, std::uint32_t slot, const DepthPlane* plane) {
+    const int lanes = last - first + 1;
+    const int at = row * kTileSize + first;
+    if (plane == nullptr) return void(std::fill_n(samples_.slot + at, lanes, slot));
+    const float* const candidate = candidate_;
+    plane->span(tile_.x0 + first, tile_.y0 + row, lanes, kernels_, candidate_, counters_);
+    if (!frame_.state.depth_test) {
+      std::fill_n(samples_.slot + at, lanes, slot);
+      std::copy_n(candidate, lanes, samples_.depth + at);
+    } else if (needs_.runner_up) {
+      for (int n = 0; n < lanes; ++n) test_with_runner_up(candidate[n], at + n, slot);
+    } else if (lanes <= kNarrow) {
+      for (int n = 0; n < lanes; ++n)
+        if (candidate[n] < samples_.depth[at + n]) samples_.depth[at + n] = candidate[n], samples_.slot[at + n] = slot;
+    } else {
+      kernels_.depth_test(candidate, lanes, slot, samples_.depth + at, samples_.slot + at);
+    }
+  }
+
+  void test_with_runner_up(float depth, int at, std::uint32_t slot) {
+    const bool drawn = samples_.slot[at] != kNoSlot;
+    if (depth < samples_.depth[at]) {
+      if (drawn) samples_.runner_up[at] = samples_.depth[at];
+      samples_.slot[at] = slot, samples_.depth[at] = depth;
+    } else if (drawn && depth < 1 && depth < samples_.runner_up[at]) {
+      samples_.runner_up[at] = depth;
+    }
+  }
+
+  const DrawList& list_;
+  const Frame& frame_;
+  const Tile& tile_;
+  SampleNeeds needs_;
+  const Kernels& kernels_;
+  TileSamples& samples_;
+  EvaluationCounters& counters_;
+  alignas(64) float candidate_[kTileSize];
+};
+
+}  // namespace
+
+void find_samples(const DrawList& list, const Frame& frame, const Tile& tile, const std::uint32_t* ids, std::size_t count,
+                  SampleNeeds needs, const Kernels& kernels, TileSamples& samples, EvaluationCounters& counters) {
+  const auto texels = static_cast<std::size_t>(tile.height) * kTileSize;
+  std::fill_n(samples.slot, texels, kNoSlot);
+  if (needs.depth) std::fill_n(samples.depth, texels, 1.0f);
+  if (needs.runner_up) std::fill_n(samples.runner_up, texels, std::numeric_limits<float>::infinity());
+  SampleFinder finder(list, frame, tile, needs, kernels, samples, counters);
+  for (std::size_t n = 0; n < count; ++n) finder.draw(ids[n], static_cast<std::uint32_t>(n));
+}
+
+}  // namespace etalon::raster::fast
