@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/draw/draw_list.h"
 #include "core/math/half.h"
 
@@ -50,26 +52,79 @@ void validate(const Frame& frame) {
 
 namespace {
 
-void validate_vertices(const DrawList& list, const Frame& frame) {
-  const std::int64_t guard = frame.guard, bits = frame.state.subtexel_bits;
-  const std::int64_t lo = -(guard << bits), x_hi = (frame.width + guard) << bits, y_hi = (frame.height + guard) << bits;
-  const auto attribute_ok = [](float a) { return std::abs(a) <= 0x1p40f; };  // false for NaN
-  for (std::size_t n = 0; n < list.vertices.size(); ++n) {
-    const RasterVertex& v = list.vertices[n];
+constexpr std::size_t kBlock = 16384;
+
+// What a vertex must obey; positions in sub-texels.
+struct VertexLimits {
+  std::int64_t lo, x_hi, y_hi;
+  explicit VertexLimits(const Frame& frame)
+      : lo(-(std::int64_t{frame.guard} << frame.state.subtexel_bits)),
+        x_hi((std::int64_t{frame.width} + frame.guard) << frame.state.subtexel_bits),
+        y_hi((std::int64_t{frame.height} + frame.guard) << frame.state.subtexel_bits) {}
+
+  // All at once, without a branch; false for NaN.
+  [[nodiscard]] bool hold(const RasterVertex& v) const {
+    constexpr float most = 0x1p40f;
+    bool good = (v.x >= lo) & (v.x <= x_hi) & (v.y >= lo) & (v.y <= y_hi) & (v.z >= 0) & (v.z <= 1) & (v.w >= 0x1p-20f) & (v.w <= 0x1p20f);
+    good &= (std::abs(v.uv.x) <= most) & (std::abs(v.uv.y) <= most);
+    for (int c = 0; c < 4; ++c) good &= std::abs(v.color[c]) <= most;
+    return good;
+  }
+
+  void refuse_vertex(const RasterVertex& v, std::size_t n) const {
     if (v.x < lo || v.x > x_hi || v.y < lo || v.y > y_hi)
       refuse(
           fmt::format("vertex {}: expected a position in [{}, {}] x [{}, {}] sub-texels, got ({}, {})", n, lo, x_hi, lo, y_hi, v.x, v.y));
     if (!(v.z >= 0 && v.z <= 1)) refuse(fmt::format("vertex {}: expected z in [0, 1], got {}", n, v.z));
     if (!(v.w >= 0x1p-20f && v.w <= 0x1p20f)) refuse(fmt::format("vertex {}: expected w in [2^-20, 2^20], got {}", n, v.w));
+    const auto attribute_ok = [](float a) { return std::abs(a) <= 0x1p40f; };
     if (!attribute_ok(v.uv.x) || !attribute_ok(v.uv.y))
       refuse(fmt::format("vertex {}: expected finite uv of at most 2^40, got ({}, {})", n, v.uv.x, v.uv.y));
     for (int c = 0; c < 4; ++c)
       if (!attribute_ok(v.color[c])) refuse(fmt::format("vertex {}: expected a finite colour of at most 2^40, got {}", n, v.color[c]));
   }
-  for (std::size_t t = 0; t < list.triangles.size(); ++t)
-    for (const std::uint32_t corner : list.triangles[t])
-      if (corner >= list.vertices.size())
-        refuse(fmt::format("triangle {}: expected vertex indices below {}, got {}", t, list.vertices.size(), corner));
+};
+
+// Largest |u| and |v| of the vertices.
+using UvMaxima = std::array<float, 2>;
+
+UvMaxima validate_vertices(const DrawList& list, const Frame& frame) {
+  const VertexLimits limits(frame);
+  struct Block {
+    bool good = true;
+    UvMaxima uv{};
+  };
+  std::vector<Block> blocks((list.vertices.size() + kBlock - 1) / kBlock);
+  parallel_for_blocks(list.vertices.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    Block block;
+    for (std::size_t n = begin; n < end; ++n) {
+      const RasterVertex& v = list.vertices[n];
+      block.good &= limits.hold(v);
+      block.uv = {std::max(block.uv[0], std::abs(v.uv.x)), std::max(block.uv[1], std::abs(v.uv.y))};
+    }
+    blocks[begin / kBlock] = block;
+  });
+  UvMaxima uv{};
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    for (std::size_t n = b * kBlock; !blocks[b].good && n < list.vertices.size(); ++n) limits.refuse_vertex(list.vertices[n], n);
+    uv = {std::max(uv[0], blocks[b].uv[0]), std::max(uv[1], blocks[b].uv[1])};
+  }
+  return uv;
+}
+
+void validate_triangles(const DrawList& list) {
+  std::vector<std::uint32_t> largest((list.triangles.size() + kBlock - 1) / kBlock, 0);
+  parallel_for_blocks(list.triangles.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t most = 0;
+    for (std::size_t t = begin; t < end; ++t)
+      for (const std::uint32_t corner : list.triangles[t]) most = std::max(most, corner);
+    largest[begin / kBlock] = most;
+  });
+  for (std::size_t b = 0; b < largest.size(); ++b)
+    for (std::size_t t = b * kBlock; largest[b] >= list.vertices.size() && t < list.triangles.size(); ++t)
+      for (const std::uint32_t corner : list.triangles[t])
+        if (corner >= list.vertices.size())
+          refuse(fmt::format("triangle {}: expected vertex indices below {}, got {}", t, list.vertices.size(), corner));
 }
 
 // The number in channel c of a float or half texel.
@@ -80,16 +135,42 @@ double number_at(const Image& image, int x, int y, int c) {
 
 // Largest magnitude in each channel of an image; NaN counts as infinite. Bounded formats have 1.
 using ChannelMaxima = std::array<double, 4>;
+
+// Magnitudes of one float format are ordered as their bits without the sign, NaN last.
+template <class Bits>
+std::array<Bits, 4> largest_bits(const Image& image) {
+  constexpr Bits magnitude = static_cast<Bits>(~Bits{0}) >> 1;
+  const auto channels = static_cast<std::size_t>(image.format().channels);
+  const auto* const numbers = reinterpret_cast<const Bits*>(image.bytes().data());
+  std::vector<std::array<Bits, 4>> blocks((image.texel_count() + kBlock - 1) / kBlock);
+  parallel_for_blocks(image.texel_count(), kBlock, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t period = 12;  // a multiple of 1, 2, 3 and 4 channels: number n belongs to channel n mod period mod channels
+    std::array<Bits, period> most{};
+    std::size_t n = begin * channels;
+    for (; n + period <= end * channels; n += period)
+      for (std::size_t k = 0; k < period; ++k) most[k] = std::max(most[k], static_cast<Bits>(numbers[n + k] & magnitude));
+    for (std::size_t k = 0; n + k < end * channels; ++k) most[k] = std::max(most[k], static_cast<Bits>(numbers[n + k] & magnitude));
+    std::array<Bits, 4>& block = blocks[begin / kBlock];
+    for (std::size_t k = 0; k < period; ++k) block[k % channels] = std::max(block[k % channels], most[k]);
+  });
+  std::array<Bits, 4> largest{};
+  for (const auto& block : blocks)
+    for (std::size_t c = 0; c < 4; ++c) largest[c] = std::max(largest[c], block[c]);
+  return largest;
+}
+
 ChannelMaxima channel_maxima(const Image& image) {
-  ChannelMaxima largest{};
-  if (image.format().type != ChannelType::half && image.format().type != ChannelType::float32) return {1, 1, 1, 1};
-  for (int y = 0; y < image.height(); ++y)
-    for (int x = 0; x < image.width(); ++x)
-      for (int c = 0; c < image.format().channels; ++c) {
-        const double magnitude = std::abs(number_at(image, x, y, c));
-        if (!(magnitude <= largest[static_cast<std::size_t>(c)]))
-          largest[static_cast<std::size_t>(c)] = std::isnan(magnitude) ? std::numeric_limits<double>::infinity() : magnitude;
-      }
+  const auto finite_or_infinite = [](double magnitude) {
+    return std::isnan(magnitude) ? std::numeric_limits<double>::infinity() : magnitude;
+  };
+  ChannelMaxima largest{1, 1, 1, 1};
+  if (image.format().type == ChannelType::half) {
+    const auto bits = largest_bits<std::uint16_t>(image);
+    for (std::size_t c = 0; c < 4; ++c) largest[c] = finite_or_infinite(half_to_double(bits[c]));
+  } else if (image.format().type == ChannelType::float32) {
+    const auto bits = largest_bits<std::uint32_t>(image);
+    for (std::size_t c = 0; c < 4; ++c) largest[c] = finite_or_infinite(std::bit_cast<float>(bits[c]));
+  }
   return largest;
 }
 
@@ -128,8 +209,9 @@ void validate_image(const DrawList& list, std::size_t draw, std::uint32_t index,
     refuse(fmt::format("draw {}: expected {} with at least {} channels, got {}", draw, role, least_channels, image.format().channels));
 }
 
-// |u|·size < 2^30 for all vertices of the draw: interpolation cannot leave their range.
-void validate_lookup_range(const DrawList& list, const Draw& draw, std::size_t n, const Image& image) {
+// |u|·size < 2^30 for all vertices of the draw: interpolation cannot leave their range. `uv_most` is of the whole list.
+void validate_lookup_range(const DrawList& list, const UvMaxima& uv_most, const Draw& draw, std::size_t n, const Image& image) {
+  if (double{uv_most[0]} * image.width() < 0x1p30 && double{uv_most[1]} * image.height() < 0x1p30) return;
   for (std::uint32_t t = draw.first_triangle; t < draw.first_triangle + draw.triangle_count; ++t)
     for (const std::uint32_t corner : list.triangles[t]) {
       const Vec2f uv = list.vertices[corner].uv;
@@ -138,7 +220,7 @@ void validate_lookup_range(const DrawList& list, const Draw& draw, std::size_t n
     }
 }
 
-void validate_draw(const DrawList& list, std::size_t n, ImageRanges& ranges) {
+void validate_draw(const DrawList& list, const UvMaxima& uv_most, std::size_t n, ImageRanges& ranges) {
   const Draw& draw = list.draws[n];
   if (draw.shading == Shading::vertex_color) return;
   const auto texel_limit = [](const Sampler& sampler) {
@@ -148,21 +230,22 @@ void validate_draw(const DrawList& list, std::size_t n, ImageRanges& ranges) {
   const double texture_limit = texel_limit(draw.sampler);
   ranges.check(draw.texture, {texture_limit, texture_limit, texture_limit, texture_limit});
   const Image& texture = *list.images[draw.texture];
-  if (draw.shading == Shading::texture) return validate_lookup_range(list, draw, n, texture);
+  if (draw.shading == Shading::texture) return validate_lookup_range(list, uv_most, draw, n, texture);
   validate_image(list, n, draw.indexing_map, "indexing map", 2);
   // |u|·width < 2^30, so at most the float32 below; the other channels are not used as coordinates.
   const double map_limit = texel_limit(draw.map_sampler);
   const auto coordinate_limit = [](int size) { return std::min(0x1p40, 0x1p30 / size * (1 - 0x1p-24)); };
   ranges.check(draw.indexing_map, {std::min(map_limit, coordinate_limit(texture.width())),
                                    std::min(map_limit, coordinate_limit(texture.height())), map_limit, map_limit});
-  validate_lookup_range(list, draw, n, *list.images[draw.indexing_map]);
+  validate_lookup_range(list, uv_most, draw, n, *list.images[draw.indexing_map]);
 }
 
 }  // namespace
 
 void validate(const DrawList& list, const Frame& frame) {
   validate(frame);
-  validate_vertices(list, frame);
+  const UvMaxima uv_most = validate_vertices(list, frame);
+  validate_triangles(list);
   std::uint64_t next = 0;
   ImageRanges ranges(list);
   for (std::size_t n = 0; n < list.draws.size(); ++n) {
@@ -170,7 +253,7 @@ void validate(const DrawList& list, const Frame& frame) {
       refuse(fmt::format("draw {}: expected to begin at triangle {}, got {}", n, next, list.draws[n].first_triangle));
     next += list.draws[n].triangle_count;
     if (next > list.triangles.size()) refuse(fmt::format("draw {}: ends at triangle {} of {}", n, next, list.triangles.size()));
-    validate_draw(list, n, ranges);
+    validate_draw(list, uv_most, n, ranges);
   }
   if (next != list.triangles.size()) refuse(fmt::format("the draws end at triangle {} of {}", next, list.triangles.size()));
   if (list.triangles.size() >= kNoTriangle) refuse("more than 2^32 - 2 triangles");
