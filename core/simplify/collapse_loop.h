@@ -1,0 +1,152 @@
+// The strict loop: at each step the one legal half-edge collapse of least (cost, vertex, target), over the whole mesh.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "core/simplify/collapse_queue.h"
+#include "core/simplify/legality.h"
+
+namespace etalon::simplify {
+
+/// Metric: double cost(u, v) (never NaN), void collapse(u, v) (state of v after u went into it), and kCostsAreLocal (qem_metric.h).
+///
+/// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged then; a
+/// refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of the
+/// vertex change (the link condition of u→v eases only where u loses a neighbour, everything else depends on the faces of u and the place
+/// of v), and then all its candidates are considered anew. So the first candidate that is legal when popped is the least of all.
+template <class Metric>
+class CollapseLoop {
+ public:
+  struct Step {
+    std::uint32_t u = kNone, v = kNone;
+    CollapseMesh::Edge edge;
+    double cost = 0;
+  };
+
+  CollapseLoop(CollapseMesh& mesh, Metric& metric, Legality& legality)
+      : mesh_(mesh), metric_(metric), legality_(legality), queue_(mesh.vertex_capacity()), refused_(mesh.vertex_capacity(), false) {
+    std::vector<QueuedCollapse> entries;
+    for (std::uint32_t u = 0; u < mesh_.vertex_capacity(); ++u)
+      if (const QueuedCollapse best = best_of(u); best.target != kNone) entries.push_back(best);
+    queue_.assign(std::move(entries));
+  }
+
+  /// The next collapse, judged legal and not yet done; u is kNone where none is left.
+  [[nodiscard]] Step find() {
+    while (!queue_.empty()) {
+      const QueuedCollapse top = queue_.top();
+      const CollapseMesh::Edge edge = mesh_.find_edge(top.vertex, top.target);
+      const Refusal refusal = legality_.check(top.vertex, edge);
+      if (refusal == Refusal::none) return {top.vertex, top.target, edge, top.cost};
+      ++refusals_[static_cast<std::size_t>(refusal)];
+      refused_[top.vertex] = true;
+      requeue(best_after(top));
+    }
+    return {};
+  }
+
+  /// Does what find() returned last.
+  void apply(const Step& step) {
+    near_.clear();
+    mesh_.for_each_neighbor(step.u, [&](std::uint32_t n, std::uint32_t) { near_.push_back(n); });
+    queue_.remove(step.u);
+    metric_.collapse(step.u, step.v);
+    mesh_.collapse(step.u, step.edge);
+    // Vertices that lost u as a neighbour: their faces changed.
+    for (const std::uint32_t w : near_)
+      if (w != step.v) refresh(w, step);
+    requeue(best_of(step.v));
+    // Those that only see v's new cost.
+    if constexpr (Metric::kCostsAreLocal) {
+      mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t h) {
+        for (const std::uint32_t n : near_)
+          if (n == w) return;
+        see_new_cost(w, step.v, h);
+      });
+    } else {
+      mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t) { requeue(best_of(w)); });
+    }
+  }
+
+  [[nodiscard]] const std::array<std::uint64_t, kRefusalCount>& refusals() const { return refusals_; }
+  [[nodiscard]] const CollapseQueue& queue() const { return queue_; }
+
+ private:
+  static bool before(double cost_a, std::uint32_t a, double cost_b, std::uint32_t b) { return cost_a != cost_b ? cost_a < cost_b : a < b; }
+
+  // Calls visit(v, half-edge) for every neighbour that u's kind lets it go to.
+  template <class Visit>
+  void for_each_candidate(std::uint32_t u, const Visit& visit) const {
+    const VertexKind kind = mesh_.kind(u);
+    if (kind == VertexKind::locked || !mesh_.vertex_alive(u)) return;
+    mesh_.for_each_neighbor(u, [&](std::uint32_t v, std::uint32_t h) {
+      if (kind == VertexKind::interior || mesh_.on_curve(h)) visit(v, h);
+    });
+  }
+
+  [[nodiscard]] QueuedCollapse best_of(std::uint32_t u) {
+    refused_[u] = false;
+    QueuedCollapse best{std::numeric_limits<double>::infinity(), u, kNone};
+    for_each_candidate(u, [&](std::uint32_t v, std::uint32_t) {
+      const double cost = metric_.cost(u, v);
+      if (before(cost, v, best.cost, best.target)) best = {cost, u, v};
+    });
+    return best;
+  }
+
+  [[nodiscard]] QueuedCollapse best_after(const QueuedCollapse& refused) const {
+    QueuedCollapse best{std::numeric_limits<double>::infinity(), refused.vertex, kNone};
+    for_each_candidate(refused.vertex, [&](std::uint32_t v, std::uint32_t) {
+      const double cost = metric_.cost(refused.vertex, v);
+      if (before(refused.cost, refused.target, cost, v) && before(cost, v, best.cost, best.target)) best = {cost, refused.vertex, v};
+    });
+    return best;
+  }
+
+  void requeue(const QueuedCollapse& entry) {
+    if (entry.target == kNone)
+      queue_.remove(entry.vertex);
+    else
+      queue_.set(entry);
+  }
+
+  // w's faces changed. Without a refusal, and with its best elsewhere, only the way to v can have become better.
+  void refresh(std::uint32_t w, const Step& step) {
+    if constexpr (Metric::kCostsAreLocal) {
+      if (!refused_[w] && mesh_.kind(w) == VertexKind::interior && queue_.contains(w)) {
+        const QueuedCollapse& entry = queue_.of(w);
+        if (entry.target != step.u && entry.target != step.v) {
+          const double cost = metric_.cost(w, step.v);
+          if (before(cost, step.v, entry.cost, entry.target)) queue_.set({cost, w, step.v});
+          return;
+        }
+      }
+    }
+    requeue(best_of(w));
+  }
+
+  void see_new_cost(std::uint32_t w, std::uint32_t v, std::uint32_t h) {
+    const VertexKind kind = mesh_.kind(w);
+    if (kind == VertexKind::locked || (kind == VertexKind::curve && !mesh_.on_curve(h))) return;
+    if (!refused_[w] && queue_.contains(w)) {
+      const QueuedCollapse& entry = queue_.of(w);
+      if (entry.target != v) {
+        const double cost = metric_.cost(w, v);
+        if (before(cost, v, entry.cost, entry.target)) queue_.set({cost, w, v});
+        return;
+      }
+    }
+    requeue(best_of(w));
+  }
+
+  CollapseMesh& mesh_;
+  Metric& metric_;
+  Legality& legality_;
+  CollapseQueue queue_;
+  std::vector<bool> refused_;  // whether an entry stands behind a refused candidate
+  std::vector<std::uint32_t> near_;
+  std::array<std::uint64_t, kRefusalCount> refusals_{};
+};
+
+}  // namespace etalon::simplify

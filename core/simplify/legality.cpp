@@ -1,0 +1,137 @@
+#include "core/simplify/legality.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/mesh/exact_orientation.h"
+
+namespace etalon::simplify {
+
+namespace {
+
+Vec3d between(const Vec3f& from, const Vec3f& to) {
+  return {static_cast<double>(to.x) - from.x, static_cast<double>(to.y) - from.y, static_cast<double>(to.z) - from.z};
+}
+
+Vec3d cross_product(const Vec3d& a, const Vec3d& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+
+double dot_product(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+// Exact. The two products of differences are each off by at most 3·2^-53 of themselves and their difference by another 2^-53, in all less
+// than 2^-50 of the products' magnitudes together; nothing underflows (differences of floats are multiples of 2^-149).
+int uv_orientation(const Vec2f& a, const Vec2f& b, const Vec2f& c) {
+  const double x0 = static_cast<double>(b.x) - a.x, y0 = static_cast<double>(b.y) - a.y;
+  const double x1 = static_cast<double>(c.x) - a.x, y1 = static_cast<double>(c.y) - a.y;
+  const double p = x0 * y1, q = y0 * x1, det = p - q;
+  if (std::fabs(det) > 0x1p-50 * (std::fabs(p) + std::fabs(q))) return det > 0 ? 1 : -1;
+  return orientation(a, b, c);
+}
+
+}  // namespace
+
+const char* to_string(Refusal refusal) {
+  switch (refusal) {
+    case Refusal::none: return "none";
+    case Refusal::link: return "link_condition";
+    case Refusal::last_faces: return "last_faces";
+    case Refusal::curve: return "curve_closes";
+    case Refusal::flip_in_space: return "flip_in_space";
+    case Refusal::flip_in_texture: return "flip_in_texture";
+  }
+  return "";
+}
+
+Refusal Legality::check(std::uint32_t u, const CollapseMesh::Edge& edge) {
+  const std::uint32_t v = edge.left != kNone ? mesh_.end(edge.left) : mesh_.start(edge.right);
+  if (!link_holds(u, v, edge)) return Refusal::link;
+  if (last_faces(u, v, edge)) return Refusal::last_faces;
+  if (closes_curve(edge)) return Refusal::curve;
+  if (flips_in_space(u, v, edge)) return Refusal::flip_in_space;
+  if (mesh_.source().has_uv && flips_in_texture(u, edge)) return Refusal::flip_in_texture;
+  return Refusal::none;
+}
+
+// Common neighbours of u and v are the third corners of the faces on their edge, and no others; an inner edge does not join two boundaries.
+// Neighbours are told apart by the source's vertices: several fans at one place count as one.
+bool Legality::link_holds(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) {
+  if (edge.face_count() == 2 && mesh_.on_boundary(u) && mesh_.on_boundary(v)) return false;
+  if (++current_ == 0) {  // the counter ran around: old marks must not look new
+    std::fill(marks_.begin(), marks_.end(), 0);
+    current_ = 1;
+  }
+  const std::uint32_t place = mesh_.origin(v);
+  bool meets = false;
+  mesh_.for_each_neighbor(u, [&](std::uint32_t n, std::uint32_t) {
+    const std::uint32_t origin = mesh_.origin(n);
+    meets = meets || (n != v && origin == place);
+    marks_[origin] = current_;
+  });
+  if (meets) return false;
+  int common = 0;
+  mesh_.for_each_neighbor(v, [&](std::uint32_t n, std::uint32_t) { common += marks_[mesh_.origin(n)] == current_ ? 1 : 0; });
+  return common == edge.face_count();
+}
+
+bool Legality::last_faces(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) const {
+  if (edge.face_count() == 1) {
+    const std::uint32_t h = edge.left != kNone ? edge.left : edge.right;
+    return mesh_.opposite(CollapseMesh::next(h)) == kNone && mesh_.opposite(CollapseMesh::previous(h)) == kNone;
+  }
+  const auto is_three = [&](std::uint32_t w) {
+    const std::uint32_t first = mesh_.first_out(w), second = mesh_.rotate(first);
+    if (second == kNone) return false;
+    const std::uint32_t third = mesh_.rotate(second);
+    return third != kNone && mesh_.rotate(third) == first;
+  };
+  return is_three(u) && is_three(v);
+}
+
+bool Legality::closes_curve(const CollapseMesh::Edge& edge) const {
+  const auto both = [&](std::uint32_t h) {
+    return h != kNone && mesh_.on_curve(CollapseMesh::next(h)) && mesh_.on_curve(CollapseMesh::previous(h));
+  };
+  return both(edge.left) || both(edge.right);
+}
+
+bool Legality::flips_in_space(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) const {
+  const Vec3f &at_u = places_[u], &at_v = places_[v];
+  const double least = options_.min_normal_cosine * options_.min_normal_cosine;
+  const std::uint32_t first = mesh_.first_out(u);
+  std::uint32_t h = first;
+  do {
+    const std::uint32_t back = CollapseMesh::previous(h);
+    if (h != edge.left && back != edge.right) {
+      const Vec3f &x = places_[mesh_.end(h)], &y = places_[mesh_.start(back)];
+      const Vec3d before = cross_product(between(at_u, x), between(at_u, y)), after = cross_product(between(at_v, x), between(at_v, y));
+      const double area_before = dot_product(before, before), area_after = dot_product(after, after);
+      // A face that has no area has no side to keep.
+      if (area_before > 0) {
+        const double turn = dot_product(before, after);
+        if (!(turn > 0 && turn * turn > least * (area_before * area_after))) return true;
+      }
+    }
+    h = mesh_.opposite(back);
+  } while (h != kNone && h != first);
+  return false;
+}
+
+bool Legality::flips_in_texture(std::uint32_t u, const CollapseMesh::Edge& edge) const {
+  const auto uv = [&](std::uint32_t at) -> const Vec2f& { return mesh_.source().wedges[mesh_.wedge(at)].uv; };
+  // As CollapseMesh::collapse: v's left wedge counter-clockwise up to the other curve edge of u, its right one behind.
+  const Vec2f* right = edge.right != kNone ? &uv(edge.right) : nullptr;
+  const Vec2f* target = edge.left != kNone ? &uv(CollapseMesh::next(edge.left)) : right;
+  const std::uint32_t first = edge.left != kNone ? edge.left : mesh_.first_out(u);
+  std::uint32_t h = first;
+  do {
+    const std::uint32_t back = CollapseMesh::previous(h);
+    if (h != edge.left && back != edge.right) {
+      const int sign = mesh_.uv_sign(h >> 2);
+      if (sign != 0 && uv_orientation(*target, uv(CollapseMesh::next(h)), uv(back)) != sign) return true;
+    }
+    if (mesh_.on_curve(back)) target = right;
+    h = mesh_.opposite(back);
+  } while (h != kNone && h != first);
+  return false;
+}
+
+}  // namespace etalon::simplify

@@ -1,0 +1,69 @@
+// Fewer triangles: half-edge collapses in strict order of cost, on real meshes.
+// Does not: weld vertices that share a place (core/mesh/weld.h does), move vertices, or resample attributes.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+
+#include "core/simplify/legality.h"
+#include "core/simplify/qem_metric.h"
+
+namespace etalon::simplify {
+
+enum class MetricName : std::uint8_t { qem };
+
+/// One collapse as it happens, before the mesh changes.
+struct CollapseEvent {
+  std::uint32_t u = kNone, v = kNone;  ///< engine vertices: u goes into v
+  CollapseMesh::Edge edge;             ///< edge_from(u, …)
+  double cost = 0;                     ///< in the metric's own unit
+};
+
+struct SimplifyOptions {
+  MetricName metric = MetricName::qem;
+  std::size_t target_faces = 0;      ///< stop at the first count that is not above it: one below where an inner edge passes it
+  std::vector<VertexId> locked;      ///< vertices that stay where they are; others may still collapse into them
+  bool refuse_non_manifold = false;  ///< InputError for an input that is no oriented manifold, instead of locking those places
+  QemOptions qem;
+  LegalityOptions legality;
+  /// Called before each collapse with the mesh as it still is; for observers that build on the sequence.
+  std::function<void(const CollapseMesh&, const CollapseEvent&)> before_collapse;
+  /// Called after each collapse.
+  std::function<void(const CollapseMesh&)> after_collapse;
+  /// Called about every 1,000 collapses with faces removed so far and in all; an exception stops the work.
+  std::function<void(std::size_t done, std::size_t total)> progress;
+};
+
+enum class StopReason : std::uint8_t {
+  faces,      ///< the target is reached
+  exhausted,  ///< no legal collapse is left
+};
+[[nodiscard]] const char* to_string(StopReason reason);
+
+struct SimplifyResult {
+  /// Survivors in the order of the input: vertices, wedges, faces; corners of a face keep their order.
+  Mesh mesh;
+  std::vector<VertexId> source_vertex;  ///< #V of mesh: its vertex of the input
+  std::vector<FaceId> source_face;      ///< #F of mesh: its face of the input
+  StopReason stop = StopReason::faces;
+  std::size_t collapse_count = 0;
+  double max_cost = 0;  ///< largest cost paid, in the metric's own unit
+  /// Largest cost paid as a length in model units: for `qem` the weighted root mean square distance of a target to all planes it then stands for.
+  double error = 0;
+  std::array<std::uint64_t, kRefusalCount> refusals{};                         ///< candidates refused when they were the least, by Refusal
+  std::size_t interior_vertices = 0, curve_vertices = 0, locked_vertices = 0;  ///< of the input, by kind (VertexKind)
+  InputRepair repair;
+  std::size_t state_bytes_per_vertex = 0;  ///< of the metric
+};
+
+/// Collapses until the target or until nothing legal is left. The same bytes for every machine, compiler and thread count: double arithmetic in a
+/// written order, ties by lowest vertex, then lowest target.
+/// InputError where the mesh has no faces, an index is out of range, a position or uv is not finite, a locked vertex does not exist, or, with
+/// refuse_non_manifold, with count and place of what is not manifold.
+[[nodiscard]] SimplifyResult simplify_mesh(const Mesh& mesh, const SimplifyOptions& options);
+
+/// The face count that keeps `ratio` of `faces`: ratio·faces rounded to the nearest integer, halves up. ratio: 0 to 1 (InputError).
+[[nodiscard]] std::size_t faces_for_ratio(std::size_t faces, double ratio);
+
+}  // namespace etalon::simplify

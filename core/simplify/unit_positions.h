@@ -1,0 +1,19 @@
+// Positions in a cube of about unit side: nothing computed from them leaves the range of float32 or double.
+#pragma once
+
+#include <vector>
+
+#include "core/simplify/collapse_mesh.h"
+
+namespace etalon::simplify {
+
+/// Positions by engine vertex, times the power of two that brings the longest side of their box into (0.5, 1]; so scaling rounds nothing
+/// (coordinates below 2^-126 apart). A mesh of one point has scale 1.
+struct UnitPositions {
+  std::vector<Vec3f> at;
+  double unit = 1;  ///< model length of a scaled length of 1: a power of two
+};
+
+[[nodiscard]] UnitPositions unit_positions(const CollapseMesh& mesh);
+
+}  // namespace etalon::simplify
