@@ -1,0 +1,193 @@
+// etalon_bench: the CPU renderer beside llvmpipe and beside what memory allows, as ratios of times measured in turns.
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/io/atomic_file.h"
+#include "core/io/inputs.h"
+#include "gpu/context.h"
+#include "gpu/probe.h"
+#include "tests/bench/bench_document.h"
+#include "tests/bench/bench_options.h"
+#include "tests/bench/fan_scene.h"
+#include "tests/bench/scene_bench.h"
+#include "tests/support/skip.h"
+
+namespace etalon::bench {
+namespace {
+
+constexpr int kExitDone = 0, kExitDifferent = 2, kExitInput = 4, kExitUsage = 64;
+
+/// The table without the library's words on the machine, which the tables have too, and on its own build.
+class PlainReporter : public benchmark::ConsoleReporter {
+ public:
+  PlainReporter() : ConsoleReporter(OO_Tabular) {}
+  bool ReportContext(const Context& context) override {
+    name_field_width_ = context.name_field_width;
+    printed_header_ = false;
+    prev_counters_.clear();
+    return true;
+  }
+};
+
+std::vector<SceneEntry> all_entries() {
+  std::vector<SceneEntry> entries = scene_entries();
+  entries.push_back({kFans, "10,000 fans, RG32F map to map", [] { return fan_scene(); }});
+  return entries;
+}
+
+/// What the run found out, scene by scene.
+struct Outcome {
+  std::vector<SceneResult> results;
+  int failed = 0;
+  int skipped = 0;
+};
+
+void skip(Outcome& outcome, const std::string& what, const std::string& why) {
+  test::report_skip("bench " + what, why);
+  ++outcome.skipped;
+}
+
+SceneResult measured(const SceneEntry& entry, BenchScene scene, const BenchOptions& options, const SceneBenchOptions& beside) {
+  SceneBench bench(entry, std::move(scene), beside);
+  bench.measure_round();  // caches, page tables, worker threads, shaders
+  bench.drop_rounds();
+  const auto start = std::chrono::steady_clock::now();
+  for (int round = 0; round < options.repetitions; ++round) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (round >= kFewestRounds && seconds > options.seconds) break;
+    bench.measure_round();
+  }
+  return bench.result();
+}
+
+void check_images(const SceneResult& result, double most_differing, Outcome& outcome) {
+  for (const RivalWay& rival : result.rivals) {
+    if (rival.differing <= most_differing) continue;
+    fmt::print("[etalon] failed: bench {}: {}: {:.2f} % of the texels differ from ours, at most {:.2f} % expected\n", result.name,
+               rival.name, 100 * rival.differing, 100 * most_differing);
+    ++outcome.failed;
+    return;
+  }
+}
+
+/// One benchmark of Google Benchmark: its time is the median of ours, its counters the ratios.
+void run_scene(benchmark::State& state, const SceneEntry& entry, const BenchOptions& options, const SceneBenchOptions& beside,
+               Outcome& outcome) {
+  for (auto _ : state) {
+    std::optional<BenchScene> scene = entry.make();
+    if (!scene) {
+      skip(outcome, entry.name, "a real input is absent");
+      state.SkipWithError("a real input is absent");
+      return;
+    }
+    SceneResult result = measured(entry, std::move(*scene), options, beside);
+    const std::vector<double> ours = result.times_of(kOurs);
+    state.SetIterationTime(median(ours) / 1000);
+    state.counters["rounds"] = static_cast<double>(ours.size());
+    for (const RivalWay& rival : result.rivals) state.counters[rival.name] = median(ratios(result.times_of(rival.name), ours));
+    check_images(result, entry.most_differing, outcome);
+    outcome.results.push_back(std::move(result));
+  }
+}
+
+std::vector<raster::SimdLevel> levels_beside_reference(bool all) {
+  std::vector<raster::SimdLevel> levels = raster::available_simd_levels();
+  if (!all) levels = {levels.back()};
+  std::erase(levels, reference_level());
+  return levels;
+}
+
+void write_results(const nlohmann::ordered_json& document, const BenchOptions& options) {
+  const std::string tables = bench_tables(document);
+  if (!options.json.empty()) io::write_file(options.json, document.dump(2) + "\n");
+  if (!options.page.empty()) io::write_file(options.page, with_tables(std::string(io::read_file(options.page).text()), tables));
+  fmt::print("\n{}\n", tables);
+}
+
+int measure(const BenchOptions& options) {
+  set_thread_count(options.threads);
+  BenchRun run;
+  run.machine = this_machine();
+  run.threads = options.threads;
+  run.level = to_string(reference_level());
+  Outcome outcome;
+  std::unique_ptr<gpu::Context> context;
+  if (!options.only_ours) {
+    try {
+      context = gpu::make_context({.driver = gpu::Driver::llvmpipe, .threads = options.threads});
+      run.rival = gpu::probe(*context).name();
+    } catch (const UnavailableError& error) {
+      context.reset();
+      skip(outcome, "rival", error.what());
+    }
+  }
+  const SceneBenchOptions beside{context.get(), levels_beside_reference(options.all_levels), options.only_ours};
+  for (const SceneEntry& entry : all_entries()) {
+    if (!wants(options, entry.name)) continue;
+    const auto body = [&, entry](benchmark::State& state) { run_scene(state, entry, options, beside, outcome); };
+    benchmark::RegisterBenchmark(entry.name.c_str(), body)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
+  }
+  PlainReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::Shutdown();
+  if (!options.only_ours) write_results(bench_document(run, outcome.results), options);
+  fmt::print("bench: {} passed, {} failed, {} skipped\n", static_cast<int>(outcome.results.size()) - outcome.failed, outcome.failed,
+             outcome.skipped);
+  return outcome.failed > 0 ? kExitDifferent : kExitDone;
+}
+
+int run(int argc, char** argv) {
+  // Google Benchmark takes its own options out and leaves ours.
+  std::vector<std::string> arguments;
+  std::vector<char*> theirs{argv[0]};
+  for (int i = 1; i < argc; ++i) {
+    if (std::string(argv[i]).starts_with("--benchmark_"))
+      theirs.push_back(argv[i]);
+    else
+      arguments.emplace_back(argv[i]);
+  }
+  BenchOptions options;
+  try {
+    options = parse_options(arguments);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "etalon_bench: error: {}\n", error.what());
+    return kExitUsage;
+  }
+  if (options.help) {
+    fmt::print("{}", usage());
+    return kExitDone;
+  }
+  if (options.list) {
+    for (const SceneEntry& entry : all_entries()) fmt::print("{:20} {}\n", entry.name, entry.title);
+    return kExitDone;
+  }
+  if (!options.from.empty()) {
+    write_results(nlohmann::ordered_json::parse(io::read_file(options.from).text(), nullptr, false), options);
+    return kExitDone;
+  }
+  int their_count = static_cast<int>(theirs.size());
+  benchmark::Initialize(&their_count, theirs.data());
+  if (benchmark::ReportUnrecognizedArguments(their_count, theirs.data())) return kExitUsage;
+  return measure(options);
+}
+
+}  // namespace
+}  // namespace etalon::bench
+
+int main(int argc, char** argv) {
+  try {
+    return etalon::bench::run(argc, argv);
+  } catch (const etalon::Error& error) {
+    fmt::print(stderr, "etalon_bench: error: {}\n", error.what());
+    return etalon::bench::kExitInput;
+  }
+}
