@@ -9,14 +9,6 @@ namespace etalon::simplify {
 
 namespace {
 
-Vec3d between(const Vec3f& from, const Vec3f& to) {
-  return {static_cast<double>(to.x) - from.x, static_cast<double>(to.y) - from.y, static_cast<double>(to.z) - from.z};
-}
-
-Vec3d cross_product(const Vec3d& a, const Vec3d& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-
-double dot_product(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
 // Exact. The two products of differences are each off by at most 3·2^-53 of themselves and their difference by another 2^-53, in all less
 // than 2^-50 of the products' magnitudes together; nothing underflows (differences of floats are multiples of 2^-149).
 int uv_orientation(const Vec2f& a, const Vec2f& b, const Vec2f& c) {
@@ -102,7 +94,8 @@ bool Legality::flips_in_space(std::uint32_t u, std::uint32_t v, const CollapseMe
     const std::uint32_t back = CollapseMesh::previous(h);
     if (h != edge.left && back != edge.right) {
       const Vec3f &x = places_[mesh_.end(h)], &y = places_[mesh_.start(back)];
-      const Vec3d before = cross_product(between(at_u, x), between(at_u, y)), after = cross_product(between(at_v, x), between(at_v, y));
+      const Vec3d before = cross_product(difference_of(at_u, x), difference_of(at_u, y)),
+                  after = cross_product(difference_of(at_v, x), difference_of(at_v, y));
       const double area_before = dot_product(before, before), area_after = dot_product(after, after);
       // A face that has no area has no side to keep.
       if (area_before > 0) {

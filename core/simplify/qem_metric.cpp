@@ -6,20 +6,12 @@ namespace etalon::simplify {
 
 namespace {
 
-Vec3d between(const Vec3f& from, const Vec3f& to) {
-  return {static_cast<double>(to.x) - from.x, static_cast<double>(to.y) - from.y, static_cast<double>(to.z) - from.z};
-}
-
-Vec3d cross_product(const Vec3d& a, const Vec3d& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-
-double squared_length(const Vec3d& a) { return a.x * a.x + a.y * a.y + a.z * a.z; }
-
 // Perpendicular on the face, along an edge that starts at the quadric's own vertex: weight·|e|² of the plane with normal e × n.
 void add_curve_plane(Quadric3<double>& q, const Vec3d& edge, const Vec3d& doubled_area_normal, double weight) {
   const Vec3d across = cross_product(edge, doubled_area_normal);
-  const double length = std::sqrt(squared_length(across));
+  const double length = std::sqrt(dot_product(across, across));
   if (length == 0) return;
-  add_plane_at_origin(q, {across.x / length, across.y / length, across.z / length}, weight * squared_length(edge));
+  add_plane_at_origin(q, {across.x / length, across.y / length, across.z / length}, weight * dot_product(edge, edge));
 }
 
 }  // namespace
@@ -33,9 +25,9 @@ QemMetric::QemMetric(const CollapseMesh& mesh, const UnitPositions& positions, c
     std::uint32_t h = first;
     do {
       const std::uint32_t back = CollapseMesh::previous(h);
-      const Vec3d out = between(places_[u], places_[mesh.end(h)]), in = between(places_[u], places_[mesh.start(back)]);
+      const Vec3d out = difference_of(places_[u], places_[mesh.end(h)]), in = difference_of(places_[u], places_[mesh.start(back)]);
       const Vec3d normal = cross_product(out, in);
-      const double doubled_area = std::sqrt(squared_length(normal));
+      const double doubled_area = std::sqrt(dot_product(normal, normal));
       if (doubled_area > 0)
         add_plane_at_origin(q, {normal.x / doubled_area, normal.y / doubled_area, normal.z / doubled_area}, 0.5 * doubled_area);
       const auto weight = [&](std::uint32_t at) { return mesh.opposite(at) == kNone ? options.boundary_weight : options.seam_weight; };

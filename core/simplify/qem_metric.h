@@ -38,10 +38,7 @@ class QemMetric {
   void collapse(std::uint32_t u, std::uint32_t v) { quadrics_[v] = rounded(sum(quadrics_[v], moved(quadrics_[u], difference(u, v)))); }
 
  private:
-  [[nodiscard]] Vec3d difference(std::uint32_t u, std::uint32_t v) const {
-    const Vec3f &from = places_[u], &to = places_[v];
-    return {static_cast<double>(to.x) - from.x, static_cast<double>(to.y) - from.y, static_cast<double>(to.z) - from.z};
-  }
+  [[nodiscard]] Vec3d difference(std::uint32_t u, std::uint32_t v) const { return difference_of(places_[u], places_[v]); }
 
   const std::vector<Vec3f>& places_;
   std::vector<Quadric3<float>> quadrics_;

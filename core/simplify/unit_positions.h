@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/math/nearest_point.h"
 #include "core/simplify/collapse_mesh.h"
 
 namespace etalon::simplify {
