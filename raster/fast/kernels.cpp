@@ -19,11 +19,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fast/texel_kernels.inc"
 #include "raster/fast/store_kernels.inc"
 #include "raster/fast/depth_kernels.inc"
+#undef ETALON_INLINE_STEP
 // clang-format on
 
 const Kernels* kernels() {
-  static const Kernels table = {positions,      attribute, nearest_axis, linear_axis, texel_offsets, bilinear,
-                                bilinear_rgba8, to_unorm,  to_float32,   depth,       depth_test,    static_cast<int>(hn::Lanes(kDoubles))};
+  static const Kernels table = {
+      equal_run, positions,      attribute, nearest_texels, nearest_axis, linear_axis, texel_offsets,
+      bilinear,  bilinear_rgba8, to_unorm,  to_float32,     depth,        depth_test,  static_cast<int>(hn::Lanes(kDoubles))};
   return &table;
 }
 

@@ -2,6 +2,7 @@
 // where a bound proves them right and say where not; docs/exactness of each bound is derived where it is formed (planes.h, below).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/draw/state.h"
@@ -52,11 +53,23 @@ struct RunTriangles {
   bool perspective;  ///< some Q is not 1
 };
 
+/// The texels of an image that a lookup names.
+struct TexelGrid {
+  int width, height;
+  Wrap wrap_u, wrap_v;
+};
+
 struct Kernels {
+  /// How many of the first `count` numbers (1..64) equal the first.
+  int (*equal_run)(const std::uint32_t* numbers, int count);
   /// Positions of texels (column + lane, row), relative to the tile.
   void (*positions)(const RunTriangles& run, int lanes, int column, int row, Positions& result);
   /// The attribute whose plane starts `attribute` doubles into each triangle's planes.
   void (*attribute)(const RunTriangles& run, int lanes, int attribute, const Positions& at, Values& result);
+  /// Offsets of the texels that u and v, the attributes whose planes start there, name in an image: the fused way of positions(),
+  /// attribute(), nearest_axis() and texel_offsets().
+  LaneMask (*nearest_texels)(const RunTriangles& run, int lanes, int column, int row, int u, int v, const TexelGrid& grid,
+                             IntLanes& offset);
   /// floor(u·size), wrapped.
   LaneMask (*nearest_axis)(const Values& u, int lanes, int size, Wrap wrap, DoubleLanes& index);
   /// i0 = floor(u·size − ½) and i1 = i0 + 1, wrapped, of the approximate u: the interpolant is continuous, so a wrong side of a border

@@ -65,7 +65,7 @@ Denominator denominator(const std::array<EdgePlane, 3>& e, const Reach& reach, d
 // Bound of |computed − exact| of base + R/Q. With u = 2^-53: every term of R rounds at most ten times (difference, area, its reciprocal,
 // edge, three products, three additions), so R errs by less than 12u·magnitude; R/Q <= d = max|d_k| (a convex combination of 0, d1, d2); the
 // quotient, its product and the sum round by less than 4u(|base| + d). Affine: Q = 1 without error. The factor of two that is left covers
-// the arithmetic of this bound and the rounding of value ± error where it is used. Fused or not makes no difference: fusing only removes roundings.
+// the arithmetic of this bound and one rounding of the value's size where it is used: value ± error, or value · image size. Fused or not makes no difference: fusing only removes roundings.
 double error_bound(const Numerator& r, const Denominator& q, double base, double d) {
   const double quotient_error = (12 * 0x1p-53 * r.magnitude + d * q.error) / (q.least * (1 - 0x1p-10));
   return 2 * quotient_error + 8 * 0x1p-53 * (std::abs(base) + d);

@@ -35,12 +35,16 @@ std::vector<double> largest_texels(const DrawList& list) {
 }
 
 void RunValues::begin(const RunTriangles& triangles, int lanes, int column, int row) {
-  triangles_ = triangles, lanes_ = lanes, has_uv_ = false;
-  context_.kernels.positions(triangles_, lanes_, column, row, positions_);
+  triangles_ = triangles, lanes_ = lanes, column_ = column, row_ = row, has_positions_ = false, has_uv_ = false;
 }
 
 void RunValues::evaluate(PlaneAttribute a, Values& result) {
+  if (!has_positions_) context_.kernels.positions(triangles_, lanes_, column_, row_, positions_), has_positions_ = true;
   context_.kernels.attribute(triangles_, lanes_, context_.layout.offset(a), positions_, result);
+}
+
+void RunValues::interpolate_uv() {
+  if (!has_uv_) evaluate(kPlaneU, uv_[0]), evaluate(kPlaneV, uv_[1]), has_uv_ = true;
 }
 
 LaneMask RunValues::store_planes(PlaneAttribute first, const TargetSpec& target, std::byte* texels) {
@@ -53,21 +57,31 @@ LaneMask RunValues::store_barycentrics(const TargetSpec& target, std::byte* texe
 
 LaneMask RunValues::store_color(const Draw& draw, const TargetSpec& target, std::byte* texels) {
   if (draw.shading == Shading::vertex_color) return store_planes(kPlaneRed, target, texels);
-  if (!has_uv_) evaluate(kPlaneU, uv_[0]), evaluate(kPlaneV, uv_[1]), has_uv_ = true;
+  const Image& texture = *context_.list.images[draw.texture];
+  const bool copied = draw.sampler.filter == Filter::nearest && copies(texture.format(), target.format);
+  if (copied && draw.shading == Shading::texture) return copy_nearest(texture, draw.sampler, target.format, texels);
+  interpolate_uv();
   LaneMask undecided = 0;
   if (draw.shading == Shading::indexed) {
     undecided = through_map(draw);
   } else {
     coordinate_[0] = uv_[0], coordinate_[1] = uv_[1];
   }
-  const Image& texture = *context_.list.images[draw.texture];
-  if (draw.sampler.filter == Filter::nearest && copies(texture.format(), target.format)) {
+  if (copied) {
     undecided |= nearest(texture, draw.sampler);
     copy_texels(texture, offset_[0], lanes_, target.format, texels);
     return undecided;
   }
   undecided |= look_up(texture, draw.sampler, context_.largest[draw.texture], target.format.channels);
   return undecided | store_values(target, texels);
+}
+
+LaneMask RunValues::copy_nearest(const Image& image, const Sampler& sampler, PixelFormat target, std::byte* texels) {
+  const TexelGrid grid = {image.width(), image.height(), sampler.wrap_u, sampler.wrap_v};
+  const LaneMask undecided = context_.kernels.nearest_texels(triangles_, lanes_, column_, row_, context_.layout.offset(kPlaneU),
+                                                             context_.layout.offset(kPlaneV), grid, offset_[0]);
+  copy_texels(image, offset_[0], lanes_, target, texels);
+  return undecided;
 }
 
 // Texel offsets of coordinate_ into offset_[0].
@@ -100,7 +114,7 @@ LaneMask RunValues::look_up(const Image& image, const Sampler& sampler, double l
       for (int n = 0; n < lanes_; ++n) {
         const double value = texel_[0].at[n] * unit.scale;
         value_[c].value.at[n] = value;
-        value_[c].error.at[n] = unit.exact ? 0 : std::abs(value) * 0x1p-51;  // scale and product: 2·2^-53, and value ± error
+        value_[c].error.at[n] = unit.exact ? 0 : std::abs(value) * 0x1p-51;  // scale and product, and one rounding where it is used
       }
     }
     return undecided;
@@ -133,9 +147,13 @@ LaneMask RunValues::through_map(const Draw& draw) {
   LaneMask undecided = look_up(map, draw.map_sampler, context_.largest[draw.indexing_map], 2);
   for (int c = 0; c < 2; ++c) {
     coordinate_[c] = value_[c];
-    if (draw.map_sampler.filter == Filter::nearest) continue;  // the stored number itself
-    undecided |= context_.kernels.to_float32(value_[c], lanes_, float_[c]);
-    for (int n = 0; n < lanes_; ++n) coordinate_[c].value.at[n] = canonical(float_[c].at[n]), coordinate_[c].error.at[n] = 0;
+    if (draw.map_sampler.filter == Filter::linear) {  // rounded once to float32
+      undecided |= context_.kernels.to_float32(value_[c], lanes_, float_[c]);
+      for (int n = 0; n < lanes_; ++n) coordinate_[c].value.at[n] = canonical(float_[c].at[n]);
+    }
+    if (draw.map_sampler.filter == Filter::linear ||
+        texel_unit(map.format(), c).exact)  // what is left is the product with the image's size
+      for (int n = 0; n < lanes_; ++n) coordinate_[c].error.at[n] = std::abs(coordinate_[c].value.at[n]) * 0x1p-52;
   }
   return undecided;
 }

@@ -42,7 +42,9 @@ class RunValues {
   void evaluate(PlaneAttribute a, Values& result);
   LaneMask store_planes(PlaneAttribute first, const TargetSpec& target, std::byte* texels);
   LaneMask store_values(const TargetSpec& target, std::byte* texels);
+  void interpolate_uv();
   LaneMask nearest(const Image& image, const Sampler& sampler);
+  LaneMask copy_nearest(const Image& image, const Sampler& sampler, PixelFormat target, std::byte* texels);
   LaneMask linear(const Image& image, const Sampler& sampler);
   LaneMask look_up(const Image& image, const Sampler& sampler, double largest, int channels);
   void interpolate(const Image& image, double largest, int channels);
@@ -50,8 +52,9 @@ class RunValues {
 
   const RunContext& context_;
   RunTriangles triangles_{};
-  int lanes_ = 0;
-  bool has_uv_ = false;  ///< uv_ holds the run's interpolated uv
+  int lanes_ = 0, column_ = 0, row_ = 0;
+  bool has_positions_ = false;  ///< positions_ are the run's
+  bool has_uv_ = false;         ///< uv_ holds the run's interpolated uv
   Positions positions_{};
   Values uv_[2]{};          ///< the triangles' coordinates
   Values coordinate_[2]{};  ///< those of the lookup at hand

@@ -9,6 +9,9 @@
 namespace etalon::raster::fast {
 namespace {
 
+// So many texels of one triangle are shaded by themselves: numbers of one triangle are loaded once, those of several gathered.
+constexpr int kLongRun = 16;
+
 // A triangle that some texel of the tile shows.
 struct VisibleTriangle {
   std::uint32_t id;
@@ -48,18 +51,17 @@ class TileShader {
   // Replaces the slots by indices into visible_, in order of first appearance, and makes the planes.
   void collect_visible() {
     std::vector<std::uint32_t> index_of(ids_.size(), kNoSlot);
-    std::uint32_t last_slot = kNoSlot, last_index = kNoSlot;
     for (int row = 0; row < tile_.height; ++row) {
       std::uint32_t* const slots = samples_.slot + row * kTileSize;
-      for (int column = 0; column < tile_.width; ++column) {
-        if (slots[column] == kNoSlot) continue;
-        if (slots[column] != last_slot) {
-          last_slot = slots[column];
-          std::uint32_t& index = index_of[last_slot];
-          if (index == kNoSlot) index = add_visible(ids_[last_slot]);
-          last_index = index;
+      for (int column = 0; column < tile_.width;) {
+        const std::uint32_t slot = slots[column];
+        const int equal = equal_run(slots + column, tile_.width - column);
+        if (slot != kNoSlot) {
+          std::uint32_t& index = index_of[slot];
+          if (index == kNoSlot) index = add_visible(ids_[slot]);
+          if (index != slot) std::fill_n(slots + column, equal, index);
         }
-        slots[column] = last_index;
+        column += equal;
       }
     }
     planes_.resize(visible_.size() * static_cast<std::size_t>(context_.layout.stride()));
@@ -76,28 +78,40 @@ class TileShader {
     return static_cast<std::uint32_t>(visible_.size() - 1);
   }
 
+  // Runs of one value are mostly one texel or a whole row long.
+  [[nodiscard]] int equal_run(const std::uint32_t* numbers, int count) const {
+    return count == 1 || numbers[1] != numbers[0] ? 1 : context_.kernels.equal_run(numbers, count);
+  }
+
   void shade_row(int row) {
     const std::uint32_t* const index = samples_.slot + row * kTileSize;
     for (int column = 0; column < tile_.width;) {
-      int end = column + 1;
+      int end = column + equal_run(index + column, tile_.width - column);
       if (index[column] == kNoSlot) {
-        while (end < tile_.width && index[end] == kNoSlot) ++end;
         clear(column, row, end - column);
       } else {
         const Draw* const draw = visible_[index[column]].draw;
-        while (end < tile_.width && index[end] != kNoSlot && (index[end] == index[column] || visible_[index[end]].draw == draw)) ++end;
-        shade({column, row, end - column, draw});
+        bool uniform = true;
+        const bool alone = end - column >= kLongRun;
+        while (!alone && end < tile_.width && index[end] != kNoSlot && visible_[index[end]].draw == draw) {
+          const int equal = equal_run(index + end, tile_.width - end);
+          if (equal >= kLongRun) break;  // a run of its own
+          end += equal, uniform = false;
+        }
+        shade({column, row, end - column, draw}, uniform);
       }
       column = end;
     }
   }
 
-  void shade(const Run& run) {
+  void shade(const Run& run, bool uniform) {
     const std::uint32_t* const index = samples_.slot + run.row * kTileSize + run.column;
     const auto stride = static_cast<std::int64_t>(context_.layout.stride());
-    bool uniform = true;
-    for (int n = 0; n < run.lanes; ++n) offset_.at[n] = index[n] * stride, uniform &= index[n] == index[0];
-    std::fill(offset_.at + run.lanes, offset_.at + kRunLanes, offset_.at[0]);  // lanes behind the run are computed too
+    offset_.at[0] = index[0] * stride;
+    if (!uniform) {
+      for (int n = 1; n < run.lanes; ++n) offset_.at[n] = index[n] * stride;
+      std::fill(offset_.at + run.lanes, offset_.at + kRunLanes, offset_.at[0]);  // lanes behind the run are computed too
+    }
     if (stride > kFirstPlane) values_.begin({planes_.data(), &offset_, uniform, perspective_}, run.lanes, run.column, run.row);
     for (std::size_t n = 0; n < images_.size(); ++n) shade_target(run, index, n);
   }
