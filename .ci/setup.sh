@@ -163,7 +163,8 @@ build() {
 # The options of the one build/ that ./run and ./check share.
 build_options() {
   case $1 in
-    tests) echo "-DCMAKE_BUILD_TYPE=Release -DETALON_TESTS=ON" ;;
+    tests) echo "-DCMAKE_BUILD_TYPE=Release -DETALON_TESTS=ON -DETALON_BENCH=OFF" ;;
+    bench) echo "-DCMAKE_BUILD_TYPE=Release -DETALON_TESTS=ON -DETALON_BENCH=ON" ;;
     no-tests) echo "-DCMAKE_BUILD_TYPE=Release -DETALON_TESTS=OFF" ;;
   esac
 }

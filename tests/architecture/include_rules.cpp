@@ -52,6 +52,7 @@ const std::vector<OutsideLibrary> kOutsideLibraries = {
     {"Boost", {"boost/"}, {"validation/reference", "tests"}},
     {"CLI11", {"CLI/"}, {"cli"}},
     {"doctest", {"doctest/"}, {"tests"}},
+    {"Google Benchmark", {"benchmark/"}, {"tests/bench"}},
     {"GLM", {"glm/"}, {"core/math"}},
 };
 

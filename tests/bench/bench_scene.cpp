@@ -38,16 +38,21 @@ std::shared_ptr<const Image> with_alpha(const Image& rgb) {
   return image;
 }
 
-BenchScene model_scene(const Mesh& mesh, const Material& material, const std::string& view) {
+BenchScene model_scene(const Mesh& mesh, const Material& material, const Camera& camera) {
   BenchScene scene{{}, frame_of(1024, true)};
-  scene.list = make_scene(mesh, {material}, named_view(view, bounding_box(mesh), 1024, 1024), scene.frame);
+  scene.list = make_scene(mesh, {material}, camera, scene.frame);
   scene.list.source_faces.clear();
   return scene;
 }
 
+Camera front_of(const Mesh& mesh) { return named_view("front", bounding_box(mesh), 1024, 1024); }
+
 Material textured(std::shared_ptr<const Image> image, Filter filter) {
   return {.texture = std::move(image), .sampler = {filter, Wrap::repeat, Wrap::repeat}};
 }
+
+/// From above, so that little of the ground hides behind hills, and all of it is in the frame.
+const Camera kTerrainCamera{.eye = {0, 2.3, 1.9}, .target = {0, -0.05, 0.1}};
 
 double terrain_height(double x, double z) { return 0.28 * procedural::fractal_noise({1.9 * x, 0.5, 1.9 * z}, 7, 5); }
 
@@ -101,7 +106,7 @@ BenchScene small_triangles_scene(std::uint32_t triangle_count) {
 
 BenchScene head_scene(Filter filter) {
   const procedural::Model head = procedural::make_head();
-  return model_scene(head.mesh, textured(with_alpha(head.texture), filter), "front");
+  return model_scene(head.mesh, textured(with_alpha(head.texture), filter), front_of(head.mesh));
 }
 
 std::optional<BenchScene> real_head_scene(Filter filter) {
@@ -110,7 +115,7 @@ std::optional<BenchScene> real_head_scene(Filter filter) {
   io::LoadedModel loaded = io::read_mesh(*model);
   io::flip_v(loaded.mesh);
   loaded.mesh.face_materials.clear();
-  return model_scene(loaded.mesh, textured(with_alpha(io::read_image(*texture)), filter), "front");
+  return model_scene(loaded.mesh, textured(with_alpha(io::read_image(*texture)), filter), front_of(loaded.mesh));
 }
 
 BenchScene full_screen_scene(ScreenWarp warp) {
@@ -135,7 +140,10 @@ BenchScene full_screen_scene(ScreenWarp warp) {
   return scene;
 }
 
-BenchScene knot_scene(int rings, int around) { return model_scene(procedural::make_knot({.rings = rings, .around = around}), {}, "front"); }
+BenchScene knot_scene(int rings, int around) {
+  const Mesh knot = procedural::make_knot({.rings = rings, .around = around});
+  return model_scene(knot, {}, front_of(knot));
+}
 
 BenchScene terrain_scene(std::uint32_t cells) {
   Mesh mesh;
@@ -153,7 +161,7 @@ BenchScene terrain_scene(std::uint32_t cells) {
       mesh.faces.push_back({WedgeId(a), WedgeId(c), WedgeId(b)});
       mesh.faces.push_back({WedgeId(a), WedgeId(d), WedgeId(c)});
     }
-  return model_scene(mesh, textured(terrain_texture(1024), Filter::nearest), "fit");
+  return model_scene(mesh, textured(terrain_texture(1024), Filter::nearest), kTerrainCamera);
 }
 
 std::vector<SceneEntry> scene_entries() {
