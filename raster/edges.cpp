@@ -5,14 +5,11 @@
 namespace etalon::raster {
 namespace {
 
+// dx and dy are not both 0.
 bool owns_zero(FillRule rule, std::int64_t dx, std::int64_t dy) {
-  switch (rule) {
-    case FillRule::left_ymin: return dy < 0 || (dy == 0 && dx > 0);
-    case FillRule::left_ymax: return dy < 0 || (dy == 0 && dx < 0);
-    case FillRule::right_ymin: return dy > 0 || (dy == 0 && dx > 0);
-    case FillRule::right_ymax: return dy > 0 || (dy == 0 && dx < 0);
-  }
-  return false;
+  const bool left = rule == FillRule::left_ymin || rule == FillRule::left_ymax;
+  const bool ymin = rule == FillRule::left_ymin || rule == FillRule::right_ymin;
+  return dy != 0 ? (dy < 0) == left : (dx > 0) == ymin;
 }
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) {  // b > 0

@@ -13,12 +13,13 @@ using EdgeValues = std::array<std::int64_t, 3>;
 
 /// The edge functions of a triangle, counter-clockwise whatever the input order. With the input's ranges |E| < 2^62:
 /// frame + 2·guard <= 2^14 texels of at most 2^16 sub-texels, so |dx|, |dy|, |px − a.x| < 2^30 and each product < 2^60.
+/// The arrays are set where area2 is not 0.
 struct Edges {
-  std::array<std::int64_t, 3> dx{}, dy{};  ///< along the edge, sub-texels
-  std::array<std::int64_t, 3> c{};         ///< E(px, py) = dx·py − dy·px + c
-  std::array<bool, 3> owns{};              ///< whether E = 0 counts as inside
-  std::int64_t area2 = 0;                  ///< twice the area = ΣE; 0: nothing to draw (degenerate or culled)
-  int i_min = 0, i_max = -1;               ///< texel columns and rows whose centres lie in the bounding box, inside the frame
+  std::array<std::int64_t, 3> dx, dy;  ///< along the edge, sub-texels
+  std::array<std::int64_t, 3> c;       ///< E(px, py) = dx·py − dy·px + c
+  std::array<bool, 3> owns;            ///< whether E = 0 counts as inside
+  std::int64_t area2 = 0;              ///< twice the area = ΣE; 0: nothing to draw (degenerate or culled)
+  int i_min = 0, i_max = -1;           ///< texel columns and rows whose centres lie in the bounding box, inside the frame
   int j_min = 0, j_max = -1;
   int subtexel_bits = 8;
 

@@ -19,13 +19,28 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fast/texel_kernels.inc"
 #include "raster/fast/store_kernels.inc"
 #include "raster/fast/depth_kernels.inc"
+#include "raster/fast/cover_kernels.inc"
 #undef ETALON_INLINE_STEP
 // clang-format on
 
 const Kernels* kernels() {
   static const Kernels table = {
-      equal_run, positions,      attribute, nearest_texels, nearest_axis, linear_axis, texel_offsets,
-      bilinear,  bilinear_rgba8, to_unorm,  to_float32,     depth,        depth_test,  static_cast<int>(hn::Lanes(kDoubles))};
+      .cover_small = cover_small,
+      .equal_run = equal_run,
+      .positions = positions,
+      .attribute = attribute,
+      .nearest_texels = nearest_texels,
+      .nearest_axis = nearest_axis,
+      .linear_axis = linear_axis,
+      .texel_offsets = texel_offsets,
+      .bilinear = bilinear,
+      .bilinear_rgba8 = bilinear_rgba8,
+      .to_unorm = to_unorm,
+      .to_float32 = to_float32,
+      .depth = depth,
+      .depth_test = depth_test,
+      .vector_doubles = static_cast<int>(hn::Lanes(kDoubles)),
+  };
   return &table;
 }
 

@@ -59,7 +59,15 @@ struct TexelGrid {
   Wrap wrap_u, wrap_v;
 };
 
+/// The edge functions of a triangle over a box of texels, biased so that inside is >= 0: at the first texel, per column, per row.
+/// Nothing exceeds 2^31 at the box's columns 0..7.
+struct SmallTriangle {
+  std::int32_t value[3], x[3], y[3];
+};
+
 struct Kernels {
+  /// Bit i of rows[j]: texel (i, j) of the box is inside; 8 columns.
+  void (*cover_small)(const SmallTriangle& triangle, int row_count, std::uint8_t* rows);
   /// How many of the first `count` numbers (1..64) equal the first.
   int (*equal_run)(const std::uint32_t* numbers, int count);
   /// Positions of texels (column + lane, row), relative to the tile.

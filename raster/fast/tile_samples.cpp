@@ -13,7 +13,11 @@ namespace etalon::raster::fast {
 namespace {
 
 // Spans at most this long are found and tested texel by texel.
-constexpr int kNarrow = 4;
+constexpr int kNarrow = 2;
+// Boxes at most this wide are covered by one vector a row.
+constexpr int kSmall = 8;
+// Depths of at most so many texels are not worth a call.
+constexpr int kShort = 4;
 
 // An edge function over the tile's texels, biased so that "inside" is >= 0: value at the tile's first sample, change per column and row.
 struct BiasedEdge {
@@ -63,7 +67,7 @@ class DepthPlane {
   void span(int column, int row, int lanes, const Kernels& kernels, float* result, EvaluationCounters& counters) const {
     const double z = anchor_ + y_ * (row - row_) + x_ * (column - column_);
     counters.values += static_cast<std::uint64_t>(lanes);
-    if (lanes > kNarrow) {
+    if (lanes > kShort) {
       for (LaneMask open = kernels.depth(z, x_, error_, lanes, result); open != 0; open &= open - 1)
         result[std::countr_zero(open)] = exact(column + std::countr_zero(open), row, counters);
       return;
@@ -105,29 +109,51 @@ class SampleFinder {
     const EdgeValues origin = edges.at(tile_.x0, tile_.y0);
     for (int k = 0; k < 3; ++k)
       e[k] = {origin[k] - (edges.owns[k] ? 0 : 1), -(edges.dy[k] << edges.subtexel_bits), edges.dx[k] << edges.subtexel_bits};
-    const bool narrow = column1 - column0 < kNarrow;
-    double reciprocal[3] = {};
-    if (!narrow)
-      for (int k = 0; k < 3; ++k) reciprocal[k] = 1 / static_cast<double>(e[k].x);  // unused where infinite
-
     std::optional<DepthPlane> plane;  // made for the first span that is not empty
-    for (int row = row0; row <= row1; ++row) {
-      std::int64_t at[3];
-      for (int k = 0; k < 3; ++k) at[k] = e[k].origin + row * e[k].y;
-      int first = column0, last = column1;
-      if (narrow) {
-        narrow_span(e, at, first, last);
-      } else {
-        for (int k = 0; k < 3; ++k) clip_span(at[k], e[k].x, reciprocal[k], first, last);
-      }
-      if (first > last) continue;
+    const auto write = [&](int first, int last, int row) {
       if (needs_.depth && !plane) plane.emplace(v, edges, tile_.x0 + column0, tile_.y0 + row0, column1 - column0, row1 - row0);
       write_span(first, last, row, slot, plane ? &*plane : nullptr);
+    };
+    const int columns = column1 - column0 + 1;
+    if (columns <= kNarrow) {
+      for (int row = row0; row <= row1; ++row) {
+        int first = column0, last = column1;
+        narrow_span(e, row, first, last);
+        if (first <= last) write(first, last, row);
+      }
+    } else if (columns <= kSmall && is_small(edges)) {
+      SmallTriangle small;
+      for (int k = 0; k < 3; ++k)
+        small.value[k] = static_cast<std::int32_t>(e[k].origin + column0 * e[k].x + row0 * e[k].y),
+        small.x[k] = static_cast<std::int32_t>(e[k].x), small.y[k] = static_cast<std::int32_t>(e[k].y);
+      std::uint8_t rows[kTileSize];
+      kernels_.cover_small(small, row1 - row0 + 1, rows);
+      for (int row = row0; row <= row1; ++row) {
+        const unsigned inside = rows[row - row0] & ((1u << columns) - 1);  // one span: a triangle is convex
+        if (inside != 0) write(column0 + std::countr_zero(inside), column0 + std::bit_width(inside) - 1, row);
+      }
+    } else {
+      double reciprocal[3];
+      for (int k = 0; k < 3; ++k) reciprocal[k] = 1 / static_cast<double>(e[k].x);  // unused where infinite
+      for (int row = row0; row <= row1; ++row) {
+        int first = column0, last = column1;
+        for (int k = 0; k < 3; ++k) clip_span(e[k].origin + row * e[k].y, e[k].x, reciprocal[k], first, last);
+        if (first <= last) write(first, last, row);
+      }
     }
   }
 
  private:
-  static void narrow_span(const BiasedEdge e[3], const std::int64_t at[3], int& first, int& last) {
+  // With |dx|, |dy| <= 2^14 and texels of at most 2^11 sub-texels, an edge function over its triangle's box and 8 columns more is below
+  // 2·2^28 + 2^14·2^14 < 2^30.
+  static bool is_small(const Edges& edges) {
+    std::int64_t most = 0;
+    for (int k = 0; k < 3; ++k) most = std::max({most, std::abs(edges.dx[k]), std::abs(edges.dy[k])});
+    return most <= 1 << 14 && edges.subtexel_bits <= 11;
+  }
+
+  static void narrow_span(const BiasedEdge e[3], int row, int& first, int& last) {
+    const std::int64_t at[3] = {e[0].origin + row * e[0].y, e[1].origin + row * e[1].y, e[2].origin + row * e[2].y};
     const auto inside = [&](int column) {
       return ((at[0] + column * e[0].x) | (at[1] + column * e[1].x) | (at[2] + column * e[2].x)) >= 0;
     };
@@ -146,7 +172,7 @@ class SampleFinder {
       std::copy_n(candidate, lanes, samples_.depth + at);
     } else if (needs_.runner_up) {
       for (int n = 0; n < lanes; ++n) test_with_runner_up(candidate[n], at + n, slot);
-    } else if (lanes <= kNarrow) {
+    } else if (lanes <= kShort) {
       for (int n = 0; n < lanes; ++n)
         if (candidate[n] < samples_.depth[at + n]) samples_.depth[at + n] = candidate[n], samples_.slot[at + n] = slot;
     } else {
@@ -183,7 +209,14 @@ void find_samples(const DrawList& list, const Frame& frame, const Tile& tile, co
   if (needs.depth) std::fill_n(samples.depth, texels, 1.0f);
   if (needs.runner_up) std::fill_n(samples.runner_up, texels, std::numeric_limits<float>::infinity());
   SampleFinder finder(list, frame, tile, needs, kernels, samples, counters);
-  for (std::size_t n = 0; n < count; ++n) finder.draw(ids[n], static_cast<std::uint32_t>(n));
+  // A tile's triangles may lie anywhere in the list: asked for early, their corners first and then those vertices.
+  constexpr std::size_t kAhead = 8;
+  for (std::size_t n = 0; n < count; ++n) {
+    if (n + 2 * kAhead < count) __builtin_prefetch(&list.triangles[ids[n + 2 * kAhead]]);
+    if (n + kAhead < count)
+      for (const std::uint32_t corner : list.triangles[ids[n + kAhead]]) __builtin_prefetch(&list.vertices[corner]);
+    finder.draw(ids[n], static_cast<std::uint32_t>(n));
+  }
 }
 
 }  // namespace etalon::raster::fast

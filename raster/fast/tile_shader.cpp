@@ -11,17 +11,20 @@ namespace {
 
 // So many texels of one triangle are shaded by themselves: numbers of one triangle are loaded once, those of several gathered.
 constexpr int kLongRun = 16;
+constexpr std::uint32_t kNotVisible = 0xFFFFFFFFu;
 
 // A triangle that some texel of the tile shows.
 struct VisibleTriangle {
-  std::uint32_t id;
   const Draw* draw;
+  bool perspective;
 };
 
 // One row's consecutive texels of one draw.
 struct Run {
   int column, row, lanes;
   const Draw* draw;
+  const std::uint32_t* slots;
+  bool uniform, perspective;
 };
 
 class TileShader {
@@ -42,81 +45,75 @@ class TileShader {
       return counters_;
     }
     find_samples(context_.list, context_.frame, tile_, ids_.data(), ids_.size(), needs_, context_.kernels, samples_, counters_);
-    collect_visible();
+    index_of_.assign(ids_.size(), kNotVisible);
     for (int row = 0; row < tile_.height; ++row) shade_row(row);
     return counters_;
   }
 
  private:
-  // Replaces the slots by indices into visible_, in order of first appearance, and makes the planes.
-  void collect_visible() {
-    std::vector<std::uint32_t> index_of(ids_.size(), kNoSlot);
-    for (int row = 0; row < tile_.height; ++row) {
-      std::uint32_t* const slots = samples_.slot + row * kTileSize;
-      for (int column = 0; column < tile_.width;) {
-        const std::uint32_t slot = slots[column];
-        const int equal = equal_run(slots + column, tile_.width - column);
-        if (slot != kNoSlot) {
-          std::uint32_t& index = index_of[slot];
-          if (index == kNoSlot) index = add_visible(ids_[slot]);
-          if (index != slot) std::fill_n(slots + column, equal, index);
-        }
-        column += equal;
-      }
-    }
-    planes_.resize(visible_.size() * static_cast<std::size_t>(context_.layout.stride()));
-    const PlaneTile plane_tile = {tile_.x0, tile_.y0, tile_.width, tile_.height};
-    for (std::size_t n = 0; n < visible_.size(); ++n)
-      perspective_ |= make_planes(context_.list, visible_[n].id, context_.frame, plane_tile, context_.layout,
-                                  planes_.data() + n * static_cast<std::size_t>(context_.layout.stride()));
+  // Runs of one value are mostly a few texels or a whole row long.
+  [[nodiscard]] int equal_run(const std::uint32_t* numbers, int count) const {
+    const int near = std::min(count, 8);
+    for (int n = 1; n < near; ++n)
+      if (numbers[n] != numbers[0]) return n;
+    return near == count ? count : context_.kernels.equal_run(numbers, count);
   }
 
-  std::uint32_t add_visible(std::uint32_t id) {
+  // The triangle of a slot, its planes made when the first texel shows it.
+  std::uint32_t visible_index(std::uint32_t slot) {
+    std::uint32_t& index = index_of_[slot];
+    if (index != kNotVisible) return index;
+    const std::uint32_t id = ids_[slot];
     const Draw* draw = visible_.empty() ? nullptr : visible_.back().draw;
     if (draw == nullptr || id - draw->first_triangle >= draw->triangle_count) draw = &context_.list.draw_of(id);
-    visible_.push_back({id, draw});
-    return static_cast<std::uint32_t>(visible_.size() - 1);
-  }
-
-  // Runs of one value are mostly one texel or a whole row long.
-  [[nodiscard]] int equal_run(const std::uint32_t* numbers, int count) const {
-    return count == 1 || numbers[1] != numbers[0] ? 1 : context_.kernels.equal_run(numbers, count);
+    const std::size_t at = planes_.size();
+    planes_.resize(at + static_cast<std::size_t>(context_.layout.stride()));
+    const bool perspective = make_planes(context_.list, id, context_.frame, {tile_.x0, tile_.y0, tile_.width, tile_.height},
+                                         context_.layout, planes_.data() + at);
+    visible_.push_back({draw, perspective});
+    return index = static_cast<std::uint32_t>(visible_.size() - 1);
   }
 
   void shade_row(int row) {
-    const std::uint32_t* const index = samples_.slot + row * kTileSize;
+    const std::uint32_t* const slots = samples_.slot + row * kTileSize;
     for (int column = 0; column < tile_.width;) {
-      int end = column + equal_run(index + column, tile_.width - column);
-      if (index[column] == kNoSlot) {
-        clear(column, row, end - column);
-      } else {
-        const Draw* const draw = visible_[index[column]].draw;
-        bool uniform = true;
-        const bool alone = end - column >= kLongRun;
-        while (!alone && end < tile_.width && index[end] != kNoSlot && visible_[index[end]].draw == draw) {
-          const int equal = equal_run(index + end, tile_.width - end);
-          if (equal >= kLongRun) break;  // a run of its own
-          end += equal, uniform = false;
-        }
-        shade({column, row, end - column, draw}, uniform);
+      int equal = equal_run(slots + column, tile_.width - column);
+      if (slots[column] == kNoSlot) {
+        clear(column, row, equal);
+        column += equal;
+        continue;
       }
-      column = end;
+      const VisibleTriangle first = visible_[visible_index(slots[column])];
+      Run run = {column, row, 0, first.draw, slots + column, true, false};
+      append(run, equal);
+      while (equal < kLongRun && column + run.lanes < tile_.width && slots[column + run.lanes] != kNoSlot) {
+        const std::uint32_t next = slots[column + run.lanes];
+        const int length = equal_run(slots + column + run.lanes, tile_.width - column - run.lanes);
+        if (length >= kLongRun || visible_[visible_index(next)].draw != run.draw) break;  // a run of its own
+        append(run, length);
+        run.uniform = false;
+      }
+      shade(run);
+      column += run.lanes;
     }
   }
 
-  void shade(const Run& run, bool uniform) {
-    const std::uint32_t* const index = samples_.slot + run.row * kTileSize + run.column;
-    const auto stride = static_cast<std::int64_t>(context_.layout.stride());
-    offset_.at[0] = index[0] * stride;
-    if (!uniform) {
-      for (int n = 1; n < run.lanes; ++n) offset_.at[n] = index[n] * stride;
-      std::fill(offset_.at + run.lanes, offset_.at + kRunLanes, offset_.at[0]);  // lanes behind the run are computed too
-    }
-    if (stride > kFirstPlane) values_.begin({planes_.data(), &offset_, uniform, perspective_}, run.lanes, run.column, run.row);
-    for (std::size_t n = 0; n < images_.size(); ++n) shade_target(run, index, n);
+  // The next `lanes` texels of the run, which show one triangle.
+  void append(Run& run, int lanes) {
+    const std::uint32_t index = visible_index(run.slots[run.lanes]);
+    std::fill_n(offset_.at + run.lanes, lanes, static_cast<std::int64_t>(index) * context_.layout.stride());
+    run.lanes += lanes;
+    run.perspective |= visible_[index].perspective;
   }
 
-  void shade_target(const Run& run, const std::uint32_t* index, std::size_t n) {
+  void shade(const Run& run) {
+    for (int n = run.lanes; n % 8 != 0; ++n) offset_.at[n] = offset_.at[0];  // the last vector's lanes behind the run are computed too
+    if (context_.layout.stride() > kFirstPlane)
+      values_.begin({planes_.data(), &offset_, run.uniform, run.perspective}, run.lanes, run.column, run.row);
+    for (std::size_t n = 0; n < images_.size(); ++n) shade_target(run, n);
+  }
+
+  void shade_target(const Run& run, std::size_t n) {
     const TargetSpec& target = context_.frame.targets[n];
     std::byte* const texels = images_[n].texel(tile_.x0 + run.column, tile_.y0 + run.row);
     LaneMask undecided = 0;
@@ -125,7 +122,7 @@ class TileShader {
       case TargetContent::coordinate: undecided = values_.store_coordinate(target, texels); break;
       case TargetContent::barycentrics: undecided = values_.store_barycentrics(target, texels); break;
       case TargetContent::triangle_id:
-        for (int lane = 0; lane < run.lanes; ++lane) std::memcpy(texels + 4 * lane, &visible_[index[lane]].id, 4);
+        for (int lane = 0; lane < run.lanes; ++lane) std::memcpy(texels + 4 * lane, &ids_[run.slots[lane]], 4);
         break;
       case TargetContent::depth:
         std::memcpy(texels, samples_.depth + run.row * kTileSize + run.column, sizeof(float) * static_cast<std::size_t>(run.lanes));
@@ -134,16 +131,17 @@ class TileShader {
       case TargetContent::bound_terms: undecided = run.lanes == kRunLanes ? ~LaneMask{0} : (LaneMask{1} << run.lanes) - 1; break;
     }
     counters_.values += static_cast<std::uint64_t>(run.lanes) * static_cast<std::uint64_t>(target.format.channels);
+    if (undecided == 0) return;
     counters_.scalar += static_cast<std::uint64_t>(std::popcount(undecided)) * static_cast<std::uint64_t>(target.format.channels);
     const auto texel_bytes = static_cast<std::ptrdiff_t>(bytes_per_texel(target.format));
     for (; undecided != 0; undecided &= undecided - 1) {
       const int lane = std::countr_zero(undecided);
-      store_alone(run, index[lane], lane, target, texels + lane * texel_bytes);
+      store_alone(run, lane, target, texels + lane * texel_bytes);
     }
   }
 
-  void store_alone(const Run& run, std::uint32_t index, int lane, const TargetSpec& target, std::byte* texel) {
-    const std::uint32_t id = visible_[index].id;
+  void store_alone(const Run& run, int lane, const TargetSpec& target, std::byte* texel) {
+    const std::uint32_t id = ids_[run.slots[lane]];
     if (id != current_) setup_ = make_triangle_setup(context_.list, id, context_.frame), current_ = id;
     SampleDepth depth;
     const int at = run.row * kTileSize + run.column + lane;
@@ -173,9 +171,9 @@ class TileShader {
   SampleNeeds needs_;
   EvaluationCounters counters_;
   TileSamples samples_;
+  std::vector<std::uint32_t> index_of_;  ///< per slot, into visible_
   std::vector<VisibleTriangle> visible_;
   std::vector<double> planes_;
-  bool perspective_ = false;
   RunValues values_;
   OffsetLanes offset_{};
   std::uint32_t current_ = kNoTriangle;  ///< whose setup setup_ is
