@@ -37,7 +37,9 @@ inline double nearest_on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b)
 namespace detail {
 
 inline NearestOnTriangle at_weights(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& w) {
-  const Vec3d q{w.x * a.x + w.y * b.x + w.z * c.x, w.x * a.y + w.y * b.y + w.z * c.y, w.x * a.z + w.y * b.z + w.z * c.z};
+  // From a along the sides: what all corners have in common stays exact.
+  const Vec3d q{a.x + (w.y * (b.x - a.x) + w.z * (c.x - a.x)), a.y + (w.y * (b.y - a.y) + w.z * (c.y - a.y)),
+                a.z + (w.y * (b.z - a.z) + w.z * (c.z - a.z))};
   return {w, q, squared_distance(p, q)};
 }
 

@@ -1,0 +1,198 @@
+#include "cli/simplify_command.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "cli/attribution.h"
+#include "cli/call_files.h"
+#include "cli/exit_code.h"
+#include "cli/interrupt.h"
+#include "cli/model_input.h"
+#include "cli/usage_error.h"
+#include "core/io/inputs.h"
+#include "core/io/mesh_file.h"
+#include "core/mesh/weld.h"
+#include "core/simplify/simplify.h"
+#include "validation/report/json_report.h"
+
+namespace etalon::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using simplify::SimplifyResult;
+using validation::grouped;
+
+struct Options {
+  std::string model, output, metric = "qem";
+  std::optional<std::int64_t> faces;
+  std::optional<double> ratio;
+  double min_cosine = simplify::LegalityOptions{}.min_normal_cosine;
+  bool refuse_non_manifold = false;
+  CommonOptions common;
+};
+
+struct Job {
+  validation::VerifyInput input;
+  io::LoadedModel model;  // welded
+  std::size_t vertices_read = 0;
+  std::size_t target_faces = 0;
+};
+
+Job read_job(const Options& options, CallFiles& files) {
+  Job job;
+  files.add_input(options.model, "the model");
+  job.model = io::read_mesh(options.model);
+  add_side_files(files, job.model);
+  job.input = {.name = std::filesystem::path(options.model).filename().string(),
+               .sha256 = io::file_sha256(options.model),
+               .path = options.model,
+               .role = "model",
+               .attribution = ""};
+  job.input.attribution = attribution_of(job.input.sha256);
+  job.vertices_read = job.model.mesh.vertex_count();
+  job.model.mesh = welded_by_position(job.model.mesh);
+  const std::size_t faces = job.model.mesh.face_count();
+  job.target_faces = options.faces ? static_cast<std::size_t>(*options.faces) : simplify::faces_for_ratio(faces, *options.ratio);
+  return job;
+}
+
+Json to_json(const Defect& defect) { return {{"count", defect.count}, {"first", defect.first}}; }
+
+Json document_of(const Options& options, const Job& job, const SimplifyResult& result) {
+  const double diagonal = bounding_box(job.model.mesh).diagonal();
+  Json document = validation::document_head("simplify", {job.input});
+  document["metric"] = options.metric;
+  document["collapse"] = "half";
+  document["target_faces"] = job.target_faces;
+  document["vertices_in"] = job.model.mesh.vertex_count();
+  document["vertices_out"] = result.mesh.vertex_count();
+  document["faces_in"] = job.model.mesh.face_count();
+  document["faces_out"] = result.mesh.face_count();
+  document["stop"] = to_string(result.stop);
+  document["collapses"] = result.collapse_count;
+  document["error"] = result.error;
+  document["error_of_diagonal"] = diagonal > 0 ? Json(result.error / diagonal) : Json(nullptr);
+  document["max_cost"] = result.max_cost;
+  document["error_state_bytes_per_vertex"] = result.state_bytes_per_vertex;
+  document["kinds"] = {{"interior", result.interior_vertices}, {"curve", result.curve_vertices}, {"locked", result.locked_vertices}};
+  Json refusals = Json::object();
+  for (std::size_t i = 1; i < simplify::kRefusalCount; ++i) refusals[to_string(static_cast<simplify::Refusal>(i))] = result.refusals[i];
+  document["refusals"] = std::move(refusals);
+  document["repair"] = {{"repeated_corners", to_json(result.repair.repeated_corners)},
+                        {"duplicate_faces", to_json(result.repair.duplicate_faces)},
+                        {"non_manifold_edges", to_json(result.repair.non_manifold_edges)},
+                        {"inconsistent_edges", to_json(result.repair.inconsistent_edges)},
+                        {"non_manifold_vertices", to_json(result.repair.non_manifold_vertices)},
+                        {"unreferenced_vertices", to_json(result.repair.unreferenced_vertices)},
+                        {"welded_vertices", job.vertices_read - job.model.mesh.vertex_count()}};
+  document["mesh_sha256"] = mesh_sha256(result.mesh);
+  validation::RunInfo run = validation::current_run(options.common.start);
+  run.paths = {options.model, options.output};
+  document["run"] = validation::to_json(run);
+  return document;
+}
+
+void print_notes(Console& console, const Job& job, const SimplifyResult& result) {
+  const auto say = [&](const Defect& defect, const char* what, const char* place, const char* done) {
+    if (defect.found())
+      console.line(fmt::format("note: {}: {} ({} {}{}): {}", what, grouped(defect.count), place, defect.first[0],
+                               defect.count > 1 ? ", …" : "", done));
+  };
+  for (const std::string& note : job.model.notes) console.line("note: " + note);
+  if (job.vertices_read > job.model.mesh.vertex_count())
+    console.line(fmt::format("note: vertices welded into others of the same place and colour: {}",
+                             grouped(job.vertices_read - job.model.mesh.vertex_count())));
+  say(result.repair.repeated_corners, "faces that name a vertex twice", "face", "dropped");
+  say(result.repair.duplicate_faces, "faces that repeat an earlier one", "face", "dropped");
+  say(result.repair.non_manifold_edges, "edges of more than two faces", "face", "kept as they are");
+  say(result.repair.inconsistent_edges, "edges between faces of opposite orientation", "face", "kept as they are");
+  say(result.repair.non_manifold_vertices, "vertices whose faces are not one fan", "vertex", "kept as they are");
+  say(result.repair.unreferenced_vertices, "vertices of no face", "vertex", "dropped");
+}
+
+std::string refusals_line(const SimplifyResult& result) {
+  std::string line = "refused:";
+  bool any = false;
+  for (std::size_t i = 1; i < simplify::kRefusalCount; ++i) {
+    if (result.refusals[i] == 0) continue;
+    line += fmt::format("{} {} {}", any ? "," : "", to_string(static_cast<simplify::Refusal>(i)), grouped(result.refusals[i]));
+    any = true;
+  }
+  return any ? line : "refused: none";
+}
+
+int run(const Options& options) {
+  apply(options.common);
+  if (options.output == "-") throw UsageError("simplify: a model may be several files: expected -o FILE.obj, .ply or .glb");
+  if (options.faces.has_value() == options.ratio.has_value()) throw UsageError("simplify: expected one of --faces and --ratio");
+  require_writable_file(options.output);
+  require_writable_file(options.common.json);
+  Console console(console_options(options.common));
+  CallFiles files;
+  Job job = read_job(options, files);
+  const std::vector<std::filesystem::path> outputs = io::mesh_output_files(options.output, job.model.materials);
+  for (const std::filesystem::path& path : outputs) files.add_output(path.string(), "-o");
+  files.add_output(options.common.json, "--json");
+
+  const SimplifyResult result = naming_the_model(options.model, [&] {
+    simplify::SimplifyOptions how;
+    how.target_faces = job.target_faces;
+    how.refuse_non_manifold = options.refuse_non_manifold;
+    how.legality.min_normal_cosine = options.min_cosine;
+    how.progress = [&](std::size_t done, std::size_t total) {
+      console.progress("faces removed", static_cast<int>(done), static_cast<int>(total));
+    };
+    return simplify::simplify_mesh(job.model.mesh, how);
+  });
+  {
+    const FinishWriting finish;
+    io::write_mesh(options.output, result.mesh, job.model.materials);
+  }
+  print_notes(console, job, result);
+  const double diagonal = bounding_box(job.model.mesh).diagonal();
+  console.line(fmt::format("{}: {} of {} faces, {} of {} vertices; error {:.6g}{}", options.output, grouped(result.mesh.face_count()),
+                           grouped(job.model.mesh.face_count()), grouped(result.mesh.vertex_count()),
+                           grouped(job.model.mesh.vertex_count()), result.error,
+                           diagonal > 0 ? fmt::format(" ({:.4g} % of the diagonal)", 100 * result.error / diagonal) : ""));
+  console.line(refusals_line(result));
+  if (result.stop == simplify::StopReason::exhausted)
+    console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused", grouped(job.target_faces)));
+  if (!job.input.attribution.empty()) console.line("by " + job.input.attribution);
+  for (const std::filesystem::path& path : outputs) console.line("wrote " + path.string());
+  write_document(options.common, document_of(options, job, result));
+  if (!options.common.json.empty() && options.common.json != "-") console.line("wrote " + options.common.json);
+  return result.stop == simplify::StopReason::faces ? kExitDone : kExitWarning;
+}
+
+}  // namespace
+
+Verb add_simplify(CLI::App& root) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app = root.add_subcommand("simplify", "Write a model with fewer triangles: half-edge collapses in strict order of error");
+  app->add_option("model", options->model, "Mesh: .obj .ply .glb .gltf")->required()->type_name("MODEL")->check(not_empty());
+  app->add_option("--faces", options->faces, "Stop at this many triangles")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 32));
+  app->add_option("--ratio", options->ratio, "Stop at this share of the model's triangles, 0 to 1")
+      ->type_name("R")
+      ->check(CLI::Range(0.0, 1.0));
+  app->add_option("--metric", options->metric, "Error metric: qem, the quadric of Garland & Heckbert")
+      ->type_name("qem")
+      ->check(CLI::IsMember({"qem"}));
+  app->add_option("--min-cosine", options->min_cosine,
+                  "Least cosine between a triangle's normals before and after a collapse, 0 to 1 (default 0.2)")
+      ->type_name("C")
+      ->check(CLI::Range(0.0, 1.0));
+  app->add_flag("--refuse-non-manifold", options->refuse_non_manifold,
+                "Fail where the model is no oriented manifold, instead of keeping those places as they are");
+  app->add_option("-o,--output", options->output, "Model to write: .obj .ply .glb")->required()->type_name("OUT")->check(not_empty());
+  add_common_options(*app, options->common, "  etalon simplify scan.ply --ratio 0.1 -o small.ply");
+  return {app, [options] { return run(*options); }};
+}
+
+}  // namespace etalon::cli

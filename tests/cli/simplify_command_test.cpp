@@ -1,0 +1,147 @@
+// etalon simplify and etalon metro: files, documents, exit codes.
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_command.h"
+#include "tests/cli/schema_validator.h"
+
+using namespace etalon::test;
+using nlohmann::json;
+
+namespace {
+
+json checked_document(const CommandResult& result, const std::string& schema_name) {
+  const json document = json::parse(result.out);
+  const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/" + schema_name));
+  for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
+  return document;
+}
+
+void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions) {
+  std::string shown;
+  for (const std::string& argument : arguments) shown += argument + " ";
+  CAPTURE(shown);
+  const std::vector<std::string> before = folder.listing();
+  const CommandResult result = run_etalon(arguments, {.folder = folder.path()});
+  CAPTURE(result.err);
+  CHECK(result.exit_code == exit_code);
+  REQUIRE(result.error_lines().size() == 1);
+  CHECK(result.error_lines()[0].find(mentions) != std::string::npos);
+  CHECK(folder.listing() == before);
+}
+
+/// Three triangles on one edge.
+std::string book_obj() { return "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n"; }
+
+}  // namespace
+
+TEST_CASE("simplify: a model and its texture, the document, the same bytes for 1, 2 and 7 threads") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "head", "--faces", "2000", "--texture-size", "64", "-o", "head.obj"}, {.folder = folder.path()}).exit_code ==
+          0);
+  std::string first;
+  for (const char* threads : {"1", "2", "7"}) {
+    const CommandResult result = run_etalon(
+        {"simplify", "head.obj", "--faces", "700", "-o", "small.obj", "--threads", threads, "--json", "-"}, {.folder = folder.path()});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    const json document = checked_document(result, "simplify.json");
+    CHECK(document["stop"] == "faces");
+    CHECK(document["faces_out"] <= 700);
+    CHECK(document["faces_out"] >= 699);
+    const std::string written = read_text(folder.path() / "small.obj");
+    if (first.empty()) first = written;
+    CHECK(written == first);
+  }
+  CHECK(first.find("vt ") != std::string::npos);
+  const std::vector<std::string> files = folder.listing();
+  CHECK(std::find(files.begin(), files.end(), "small.mtl") != files.end());
+  const CommandResult info = run_etalon({"info", "small.obj", "--json", "-"}, {.folder = folder.path()});
+  CHECK(json::parse(info.out)["materials"][0]["texture"]["width"] == 64);
+  CHECK(json::parse(info.out)["mesh"]["closed"] == true);
+}
+
+TEST_CASE("simplify: --ratio; a target that cannot be reached is a warning; non-manifold places are named or refused") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "swirl", "--faces", "800", "--texture-size", "64", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code ==
+          0);
+  const CommandResult half =
+      run_etalon({"simplify", "swirl.obj", "--ratio", "0.5", "-o", "half.ply", "--json", "-"}, {.folder = folder.path()});
+  REQUIRE(half.exit_code == 0);
+  CHECK(checked_document(half, "simplify.json")["target_faces"] == 400);
+  const CommandResult none =
+      run_etalon({"simplify", "swirl.obj", "--faces", "0", "-o", "none.ply", "--json", "-"}, {.folder = folder.path()});
+  CHECK(none.exit_code == 1);
+  CHECK(checked_document(none, "simplify.json")["stop"] == "exhausted");
+  CHECK(none.err.find("every collapse left is refused") != std::string::npos);
+
+  folder.file("book.obj", book_obj());
+  const CommandResult book = run_etalon({"simplify", "book.obj", "--faces", "3", "-o", "book.ply"}, {.folder = folder.path()});
+  CHECK(book.exit_code == 0);
+  CHECK(book.out.find("edges of more than two faces: 1 (face 0): kept as they are") != std::string::npos);
+  check_refused({"simplify", "book.obj", "--faces", "3", "--refuse-non-manifold", "-o", "b.ply"}, 4, folder,
+                "book.obj: mesh: expected an oriented manifold, got 1 edges of more than two faces (first: face 0)");
+}
+
+TEST_CASE("simplify: refusals") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  folder.file("broken.obj", "v 0 0 0\nf 1 2 3\n");
+  check_refused({"simplify"}, 64, folder, "simplify:");
+  check_refused({"simplify", "square.obj", "-o", "a.obj"}, 64, folder, "expected one of --faces and --ratio");
+  check_refused({"simplify", "square.obj", "--faces", "1", "--ratio", "0.5", "-o", "a.obj"}, 64, folder,
+                "expected one of --faces and --ratio");
+  check_refused({"simplify", "square.obj", "--faces", "1"}, 64, folder, "output");
+  check_refused({"simplify", "square.obj", "--faces", "1", "-o", "-"}, 64, folder, "-o FILE");
+  check_refused({"simplify", "square.obj", "--faces", "-1", "-o", "a.obj"}, 64, folder, "faces");
+  check_refused({"simplify", "square.obj", "--ratio", "1.5", "-o", "a.obj"}, 64, folder, "ratio");
+  check_refused({"simplify", "square.obj", "--ratio", "0.5", "--metric", "beauty", "-o", "a.obj"}, 64, folder, "beauty");
+  check_refused({"simplify", "square.obj", "--ratio", "0.5", "--min-cosine", "2", "-o", "a.obj"}, 64, folder, "min-cosine");
+  check_refused({"simplify", "square.obj", "--ratio", "0.5", "-o", "square.obj"}, 64, folder, "would overwrite the model");
+  check_refused({"simplify", "square.obj", "--ratio", "0.5", "-o", "a.stl"}, 4, folder, "a.stl");
+  check_refused({"simplify", "square.obj", "--ratio", "0.5", "-o", "nowhere/a.obj"}, 4, folder, "nowhere");
+  check_refused({"simplify", "broken.obj", "--ratio", "0.5", "-o", "a.obj"}, 4, folder, "broken.obj");
+  check_refused({"simplify", "missing.obj", "--ratio", "0.5", "-o", "a.obj"}, 4, folder, "missing.obj");
+}
+
+TEST_CASE("metro: the document, the same bytes for every thread count, colours where both have them") {
+  const ScratchFolder folder;
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+      "property uchar green\nproperty uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  folder.file("a.ply", header + "0 0 0 255 0 0\n3 0 0 255 0 0\n0 4 0 255 0 0\n3 0 1 2\n");
+  folder.file("b.ply", header + "0 0 2 0 0 0\n3 0 2 0 0 0\n0 4 2 0 0 0\n3 0 1 2\n");
+  folder.file("plain.obj", "v 0 0 0\nv 3 0 0\nv 0 4 0\nf 1 2 3\n");
+  std::string first;
+  for (const char* threads : {"1", "2", "7"}) {
+    const CommandResult result =
+        run_etalon({"metro", "a.ply", "b.ply", "--samples", "5000", "--threads", threads, "--json", "-"}, {.folder = folder.path()});
+    REQUIRE(result.exit_code == 0);
+    json document = checked_document(result, "metro.json");
+    CHECK(document["diagonal"] == 5);
+    CHECK(document["forward"]["mean"] == 2);
+    CHECK(document["max_of_diagonal"].get<double>() == 0.4);
+    CHECK(document["colour_rms"] == 1);
+    CHECK(document["forward"]["samples"] == 5000);
+    document.erase("run");
+    if (first.empty()) first = document.dump();
+    CHECK(document.dump() == first);
+  }
+  const CommandResult plain = run_etalon({"metro", "a.ply", "plain.obj", "--json", "-"}, {.folder = folder.path()});
+  CHECK(checked_document(plain, "metro.json")["colour_rms"].is_null());
+  const CommandResult lines = run_etalon({"metro", "a.ply", "b.ply", "--samples", "100"}, {.folder = folder.path()});
+  CHECK(lines.out.find("A to B: mean 2 (40.0000 %)") != std::string::npos);
+  CHECK(lines.out.find("colour RMS 1.00000") != std::string::npos);
+}
+
+TEST_CASE("metro: refusals") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  check_refused({"metro", "square.obj"}, 64, folder, "metro:");
+  check_refused({"metro", "square.obj", "square.obj", "--samples", "0"}, 64, folder, "samples");
+  check_refused({"metro", "square.obj", "square.obj", "--json", "square.obj"}, 64, folder, "would overwrite surface a");
+  check_refused({"metro", "square.obj", "missing.obj"}, 4, folder, "missing.obj");
+}
