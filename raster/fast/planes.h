@@ -16,6 +16,8 @@ inline constexpr int kFirstPlane = 5;
 // An attribute is base + (anchor + X·x + Y·y)/Q, within error wherever a sample of the tile is inside the triangle.
 inline constexpr int kPlaneBase = 0, kPlaneAnchor = 1, kPlaneX = 2, kPlaneY = 3, kPlaneError = 4;
 inline constexpr int kPlaneNumbers = 5;
+/// The error of a plane that has none (exact_planes.h): negative, and lost against any value it is added to.
+inline constexpr double kExactPlane = -0x1p-1000;
 
 /// Attributes that a plane can carry, and the place each has among those asked for.
 enum PlaneAttribute : std::uint8_t {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <memory>
 
+#include "raster/fast/exact_planes.h"
+
 namespace etalon::raster::fast {
 namespace {
 
@@ -17,6 +19,7 @@ constexpr std::uint32_t kNotVisible = 0xFFFFFFFFu;
 struct VisibleTriangle {
   const Draw* draw;
   bool perspective;
+  bool exact_tried = false;
 };
 
 // One row's consecutive texels of one draw.
@@ -116,6 +119,20 @@ class TileShader {
   void shade_target(const Run& run, std::size_t n) {
     const TargetSpec& target = context_.frame.targets[n];
     std::byte* const texels = images_[n].texel(tile_.x0 + run.column, tile_.y0 + run.row);
+    LaneMask undecided = store_run(run, target, texels);
+    if (undecided != 0 && make_exact(run, undecided, target)) undecided = store_run(run, target, texels);
+    counters_.values += static_cast<std::uint64_t>(run.lanes) * static_cast<std::uint64_t>(target.format.channels);
+    if (undecided == 0) return;
+    counters_.scalar += static_cast<std::uint64_t>(std::popcount(undecided)) * static_cast<std::uint64_t>(target.format.channels);
+    const auto texel_bytes = static_cast<std::ptrdiff_t>(bytes_per_texel(target.format));
+    for (; undecided != 0; undecided &= undecided - 1) {
+      const int lane = std::countr_zero(undecided);
+      store_alone(run, lane, target, texels + lane * texel_bytes);
+    }
+  }
+
+  // Bytes of a target's texels, and the lanes where they are not decided.
+  LaneMask store_run(const Run& run, const TargetSpec& target, std::byte* texels) {
     LaneMask undecided = 0;
     switch (target.content) {
       case TargetContent::color: undecided = values_.store_color(*run.draw, target, texels); break;
@@ -130,14 +147,25 @@ class TileShader {
       case TargetContent::margins:
       case TargetContent::bound_terms: undecided = run.lanes == kRunLanes ? ~LaneMask{0} : (LaneMask{1} << run.lanes) - 1; break;
     }
-    counters_.values += static_cast<std::uint64_t>(run.lanes) * static_cast<std::uint64_t>(target.format.channels);
-    if (undecided == 0) return;
-    counters_.scalar += static_cast<std::uint64_t>(std::popcount(undecided)) * static_cast<std::uint64_t>(target.format.channels);
-    const auto texel_bytes = static_cast<std::ptrdiff_t>(bytes_per_texel(target.format));
+    return undecided;
+  }
+
+  // Undecided texel choices may be true ties, which exact planes decide; each triangle is tried once.
+  bool make_exact(const Run& run, LaneMask undecided, const TargetSpec& target) {
+    if (target.content != TargetContent::color || run.draw->shading == Shading::vertex_color) return false;
+    bool some = false;
     for (; undecided != 0; undecided &= undecided - 1) {
-      const int lane = std::countr_zero(undecided);
-      store_alone(run, lane, target, texels + lane * texel_bytes);
+      const std::uint32_t slot = run.slots[std::countr_zero(undecided)];
+      VisibleTriangle& triangle = visible_[index_of_[slot]];
+      if (triangle.exact_tried) continue;
+      triangle.exact_tried = true;
+      double* const planes =
+          planes_.data() + static_cast<std::size_t>(index_of_[slot]) * static_cast<std::size_t>(context_.layout.stride());
+      some |= make_uv_planes_exact(context_.list, ids_[slot], context_.frame, {tile_.x0, tile_.y0, tile_.width, tile_.height},
+                                   context_.layout, planes);
     }
+    if (some) values_.begin({planes_.data(), &offset_, run.uniform, run.perspective}, run.lanes, run.column, run.row);
+    return some;
   }
 
   void store_alone(const Run& run, int lane, const TargetSpec& target, std::byte* texel) {
