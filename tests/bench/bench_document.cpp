@@ -35,6 +35,7 @@ Json scene_document(const SceneResult& r) {
                    {"frame_bytes", r.work.frame_bytes}};
   scene["counters"] = {{"values", r.counters.values}, {"scalar", r.counters.scalar}, {"exact_path", r.counters.exact_path}};
   for (const Way& way : r.ways) scene["times_ms"][way.name] = spread(way.milliseconds);
+  scene["others"] = r.others.empty() ? 0 : median(r.others);
   scene["gather_method"] = r.gather_method;
   scene["limit_ms"] = limit_ms(r);
   scene["ratios"] = Json::array();
@@ -105,8 +106,9 @@ std::string stage_table(const Json& document) {
   std::string head = "| scene | triangles | visible texels | validation, ms | ours, " + reference + ", ms |",
               line = "|---|---|---|---|---|";
   for (const std::string& level : levels) head += " " + level + ", ms |", line += "---|";
-  std::string table = head + " copy, ms | gather, affine, ms | gather, random, ms | not by vectors | by wide integers |\n" + line +
-                      "---|---|---|---|---|\n";
+  std::string table = head +
+                      " copy, ms | gather, affine, ms | gather, random, ms | not by vectors | by wide integers | rounds | others |\n" +
+                      line + "---|---|---|---|---|---|---|\n";
   for (const Json& scene : document.at("scenes")) {
     const auto time = [&](const std::string& way) { return has_way(scene, way) ? ms(median_of(scene, way)) : std::string(); };
     const Json& work = scene.at("work");
@@ -116,8 +118,9 @@ std::string stage_table(const Json& document) {
     for (const std::string& level : levels) table += " " + time(std::string(kOurs) + ", " + level) + " |";
     const Json& counters = scene.at("counters");
     const double values = std::max(1.0, counters.at("values").get<double>());
-    table += fmt::format(" {} | {} | {} | {:.2g} | {:.2g} |\n", time(kCopy), time(kGather), time(kRandomGather),
-                         counters.at("scalar").get<double>() / values, counters.at("exact_path").get<double>() / values);
+    table += fmt::format(" {} | {} | {} | {:.2g} | {:.2g} | {} | {:.0f} % |\n", time(kCopy), time(kGather), time(kRandomGather),
+                         counters.at("scalar").get<double>() / values, counters.at("exact_path").get<double>() / values,
+                         scene.at("rounds").get<int>(), 100 * scene.at("others").get<double>());
   }
   return table;
 }

@@ -1,5 +1,9 @@
 #include "tests/bench/bench_document.h"
 
+#include <algorithm>
+#include <sstream>
+#include <string>
+
 #include <doctest/doctest.h>
 
 #include "core/base/error.h"
@@ -18,6 +22,7 @@ SceneResult sample_result() {
   result.counters = {.values = 1000, .scalar = 10, .exact_path = 1};
   result.ways = {{kRivalDraw, {}, {6, 9, 20}}, {kRivalReadBack, {}, {8, 12, 21}}, {kOurs, {}, {2, 3, 10}},
                  {kValidation, {}, {1, 1, 1}}, {kCopy, {}, {0.5, 0.25, 0.5}},     {kGather, {}, {1, 1.5, 2}}};
+  result.others = {0.02, 0, 0.5};
   result.rivals = {{kRivalDraw, 2, 0.001}, {kRivalReadBack, 0, 0.001}};
   return result;
 }
@@ -35,6 +40,7 @@ TEST_CASE("bench document: medians of times, ratios of rounds, the larger limit"
   CHECK(scene.at("rounds") == 3);
   CHECK(scene.at("times_ms").at("ours").at("median") == 3);
   CHECK(scene.at("limit_ms") == 1.5);
+  CHECK(scene.at("others") == 0.02);
   REQUIRE(scene.at("ratios").size() == 2);
   CHECK(scene.at("ratios")[0].at("median") == 3);  // of 6/2, 9/3, 20/10
   CHECK(scene.at("ratios")[0].at("lower") == 2);
@@ -45,7 +51,29 @@ TEST_CASE("bench document: the tables say it") {
   const std::string tables = bench_tables(bench_document(sample_run(), {sample_result()}));
   CHECK(tables.find("Measured on 2026-11-22: a processor, 2 cores, a system, a compiler; load 0.5") != std::string::npos);
   CHECK(tables.find("| a scene | 3.00 | 9.00 | 12.0 | **3.00** (2.00–3.00) | ≥ 2 | 1.50 | 2.0 | 1 ‰ |") != std::string::npos);
-  CHECK(tables.find("| a scene | 1 | 1,234 | 1.00 | 3.00 | 0.50 | 1.50 |  | 0.01 | 0.001 |") != std::string::npos);
+  CHECK(tables.find("| a scene | 1 | 1,234 | 1.00 | 3.00 | 0.50 | 1.50 |  | 0.01 | 0.001 | 3 | 2 % |") != std::string::npos);
+}
+
+TEST_CASE("bench document: every row has as many cells as its table's head") {
+  SceneResult without_texture = sample_result();
+  without_texture.ways.pop_back();
+  without_texture.rivals.clear();
+  SceneResult other_level = sample_result();
+  other_level.ways.push_back({"ours, avx512", {}, {1, 1, 1}});
+  std::istringstream lines(bench_tables(bench_document(sample_run(), {without_texture, other_level})));
+  std::ptrdiff_t cells = 0;
+  int rows = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::ptrdiff_t bars = std::ranges::count(line, '|');
+    if (bars == 0) {
+      cells = 0;
+      continue;
+    }
+    if (cells == 0) cells = bars;
+    CHECK_MESSAGE(bars == cells, line);
+    ++rows;
+  }
+  CHECK(rows == 4 + 4);
 }
 
 TEST_CASE("bench document: without a rival a scene has its times and limits") {
@@ -73,6 +101,26 @@ TEST_CASE("bench page: only the measured block changes, and there must be one") 
   }
 }
 
+TEST_CASE("bench document: rounds that others disturbed are dropped, while enough are left") {
+  SceneResult result = sample_result();
+  CHECK(result.keep_quiet_rounds(0.05, 3) == 3);
+  CHECK(result.keep_quiet_rounds(0.05, 2) == 2);
+  CHECK(result.times_of(kOurs) == std::vector<double>{2, 3});
+  CHECK(result.times_of(kRivalDraw) == std::vector<double>{6, 9});
+  CHECK(result.others == std::vector<double>{0.02, 0});
+}
+
+TEST_CASE("machine: it has a name, and shares are shares") {
+  const Machine machine = this_machine();
+  CHECK(machine.cores >= 1);
+  CHECK(machine.date.size() == 10);
+  OtherPrograms others;
+  for (int i = 0; i < 3; ++i) {
+    const double share = others.share();
+    CHECK((share >= 0 && share <= 1));
+  }
+}
+
 TEST_CASE("bench options") {
   const BenchOptions options = parse_options({"--scene", "head", "--scene", "fans", "--repetitions", "25", "--json", "r.json"});
   CHECK(options.repetitions == 25);
@@ -83,7 +131,7 @@ TEST_CASE("bench options") {
   CHECK(parse_options({"-h"}).help);
   CHECK(usage().find("etalon_bench --scene head") != std::string::npos);
   CHECK_THROWS_WITH_AS((void)parse_options({"--threads", "0"}), "--threads: expected 1 to 32, got '0'", InputError);
-  CHECK_THROWS_WITH_AS((void)parse_options({"--repetitions", "5x"}), "--repetitions: expected 3 to 10000, got '5x'", InputError);
+  CHECK_THROWS_WITH_AS((void)parse_options({"--repetitions", "5x"}), "--repetitions: expected 5 to 10000, got '5x'", InputError);
   CHECK_THROWS_WITH_AS((void)parse_options({"--json"}), "--json: expected a value after it", InputError);
   CHECK_THROWS_WITH_AS((void)parse_options({"--fast"}), "--fast: expected an option of etalon_bench --help", InputError);
 }

@@ -63,8 +63,10 @@ std::string usage() {
       "\n"
       "  --scene NAME       only scenes whose name contains NAME; may be repeated\n"
       "  --list             the names of the scenes\n"
-      "  --repetitions N    rounds of a scene at most (default {}, at least {})\n"
-      "  --seconds S        begin no further round of a scene after S seconds (default {})\n"
+      "  --repetitions N    rounds of a scene without much else on the machine (default {}, at least {})\n"
+      "  --seconds S        begin no further round of a scene after S seconds (default {}); where other programs took more than {:.0f} % "
+      "of\n"
+      "                     the processors in all but a few rounds till then, all rounds count, and the tables say what others took\n"
       "  --threads N        of ours and of llvmpipe (default {})\n"
       "  --all-levels       ours at every SIMD level that this machine has\n"
       "  --only-ours        nothing but our renderer: for a profiler\n"
@@ -74,9 +76,9 @@ std::string usage() {
       "\n"
       "  etalon_bench --scene head --repetitions 25 --json head.json\n"
       "  etalon_bench --all-levels --page docs/performance.md\n"
-      "  perf record -g etalon_bench --scene terrain --only-ours --repetitions 200\n"
+      "  perf record -F 499 etalon_bench --scene terrain --only-ours --repetitions 200\n"
       "Exit code: 0 done; 2 the renderers draw different images; 4 bad input or file; 64 usage.\n",
-      BenchOptions{}.repetitions, kFewestRounds, BenchOptions{}.seconds, BenchOptions{}.threads);
+      BenchOptions{}.repetitions, kFewestRounds, BenchOptions{}.seconds, 100 * kMostOthers, BenchOptions{}.threads);
 }
 
 bool wants(const BenchOptions& options, const std::string& scene) {

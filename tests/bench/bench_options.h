@@ -8,7 +8,7 @@ namespace etalon::bench {
 
 struct BenchOptions {
   std::vector<std::string> scenes;  ///< parts of names; none: all scenes
-  int repetitions = 15;             ///< rounds of a scene at most
+  int repetitions = 15;             ///< rounds of a scene in which other programs take at most kMostOthers
   double seconds = 12;              ///< of a scene's rounds, after which no further one begins, but never fewer than kFewestRounds
   int threads = 2;                  ///< of ours and of the rival
   bool all_levels = false;          ///< ours at each SIMD level, not only at the reference and the best one
@@ -20,7 +20,9 @@ struct BenchOptions {
   std::string from;  ///< results of an earlier run to make the tables from; nothing is measured
 };
 
-inline constexpr int kFewestRounds = 3;
+inline constexpr int kFewestRounds = 5;
+/// Share of all processors' time: a core for a tenth of the time, of two.
+inline constexpr double kMostOthers = 0.05;
 
 /// InputError "OPTION: expected …, got …" for anything unknown, incomplete or out of range.
 [[nodiscard]] BenchOptions parse_options(const std::vector<std::string>& arguments);

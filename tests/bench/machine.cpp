@@ -1,9 +1,14 @@
 #include "tests/bench/machine.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <thread>
+#include <utility>
 
 namespace etalon::bench {
 namespace {
@@ -48,6 +53,27 @@ Machine this_machine() {
   double load = 0;
   if (getloadavg(&load, 1) == 1) machine.load = load;
   return machine;
+}
+
+double OtherPrograms::share() {
+  // The first line of /proc/stat: time of all processors in user, nice, system, idle, iowait, irq, softirq, steal.
+  std::ifstream file("/proc/stat");
+  std::string name;
+  double ticks[8] = {};
+  file >> name;
+  for (double& t : ticks) file >> t;
+  if (!file) return 0;
+  const double per_second = static_cast<double>(sysconf(_SC_CLK_TCK));
+  double total = 0;
+  for (const double t : ticks) total += t / per_second;
+  const double busy = total - (ticks[3] + ticks[4]) / per_second;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6; };
+  const double own = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  const double others = (busy - std::exchange(busy_seconds_, busy)) - (own - std::exchange(own_seconds_, own));
+  const double elapsed = total - std::exchange(total_seconds_, total);
+  return elapsed > 0 ? std::clamp(others / elapsed, 0.0, 1.0) : 0;
 }
 
 }  // namespace etalon::bench

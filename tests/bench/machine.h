@@ -17,4 +17,17 @@ struct Machine {
 /// Unknown texts are "unknown".
 [[nodiscard]] Machine this_machine();
 
+/// What other programs take of the processors' time, since the last question.
+class OtherPrograms {
+ public:
+  OtherPrograms() { (void)share(); }
+  /// In [0, 1] of all processors; steps of 1/100 s on each. 0 where the system does not say.
+  [[nodiscard]] double share();
+
+ private:
+  double busy_seconds_ = 0;  ///< of all processors
+  double own_seconds_ = 0;
+  double total_seconds_ = 0;
+};
+
 }  // namespace etalon::bench

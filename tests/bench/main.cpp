@@ -61,11 +61,14 @@ SceneResult measured(const SceneEntry& entry, BenchScene scene, const BenchOptio
   bench.measure_round();  // caches, page tables, worker threads, shaders
   bench.drop_rounds();
   const auto start = std::chrono::steady_clock::now();
-  for (int round = 0; round < options.repetitions; ++round) {
+  int quiet = 0;
+  for (int round = 0; quiet < options.repetitions; ++round) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (round >= kFewestRounds && seconds > options.seconds) break;
     bench.measure_round();
+    quiet += bench.result().others.back() <= kMostOthers ? 1 : 0;
   }
+  bench.keep_quiet_rounds(kMostOthers, kFewestRounds);
   return bench.result();
 }
 

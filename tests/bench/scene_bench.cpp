@@ -142,7 +142,14 @@ void SceneBench::add_limits() {
   result_.gather_method = gathers_.front()->method();
 }
 
+void SceneBench::measure_round() {
+  (void)others_.share();
+  bench::measure_round(result_.ways);
+  result_.others.push_back(others_.share());
+}
+
 void SceneBench::drop_rounds() {
+  result_.others.clear();
   for (Way& way : result_.ways) way.milliseconds.clear();
 }
 

@@ -11,6 +11,7 @@
 #include "tests/bench/bench_scene.h"
 #include "tests/bench/gl_rival.h"
 #include "tests/bench/limits.h"
+#include "tests/bench/machine.h"
 #include "tests/bench/scene_result.h"
 
 namespace etalon::bench {
@@ -32,8 +33,10 @@ class SceneBench {
  public:
   SceneBench(const SceneEntry& entry, BenchScene scene, const SceneBenchOptions& options);
 
-  /// Times each way once.
-  void measure_round() { bench::measure_round(result_.ways); }
+  /// Times each way once, and what other programs take meanwhile.
+  void measure_round();
+  /// SceneResult::keep_quiet_rounds.
+  std::size_t keep_quiet_rounds(double most_others, std::size_t fewest) { return result_.keep_quiet_rounds(most_others, fewest); }
   /// Forgets the rounds measured so far.
   void drop_rounds();
   [[nodiscard]] const SceneResult& result() const { return result_; }
@@ -48,6 +51,7 @@ class SceneBench {
 
   BenchScene scene_;
   SceneResult result_;
+  OtherPrograms others_;
   std::unique_ptr<GlRival> rival_;
   std::unique_ptr<FanRival> fan_rival_;
   std::unique_ptr<CopyLimit> copy_;

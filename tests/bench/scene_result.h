@@ -36,9 +36,12 @@ struct SceneResult {
   SceneWork work;
   raster::EvaluationCounters counters;  ///< of one render()
   std::vector<RivalWay> rivals;
-  std::vector<Way> ways;      ///< all that was timed
-  std::string gather_method;  ///< empty: no texture
+  std::vector<Way> ways;       ///< all that was timed
+  std::vector<double> others;  ///< by round: share of all processors' time that other programs took
+  std::string gather_method;   ///< empty: no texture
 
+  /// Drops the rounds in which others took more than `most_others`, if `fewest` are left without them. Rounds left.
+  std::size_t keep_quiet_rounds(double most_others, std::size_t fewest);
   /// The times of a way; empty where it was not measured.
   [[nodiscard]] std::vector<double> times_of(const std::string& name) const;
 };
