@@ -58,10 +58,20 @@ std::vector<std::vector<std::byte>> clear_texels(const Frame& frame) {
 std::string CpuRenderer::name() const { return fmt::format("etalon cpu, contract {}", kRasterContractVersion); }
 
 std::vector<Image> CpuRenderer::render(const DrawList& list, const Frame& frame) {
+  std::vector<Image> images;
+  render_into(list, frame, images);
+  return images;
+}
+
+void CpuRenderer::render_into(const DrawList& list, const Frame& frame, std::vector<Image>& images) {
   const DefaultFloatEnvironment environment;
   validate(list, frame);
-  std::vector<Image> images;
-  for (const TargetSpec& target : frame.targets) images.emplace_back(frame.width, frame.height, target.format);
+  images.resize(frame.targets.size());
+  for (std::size_t n = 0; n < images.size(); ++n) {
+    const PixelFormat format = frame.targets[n].format;
+    if (images[n].width() != frame.width || images[n].height() != frame.height || images[n].format() != format)
+      images[n] = Image(frame.width, frame.height, format);
+  }
   const bool keep_runner_up = frame.state.depth_test && std::any_of(frame.targets.begin(), frame.targets.end(), [](const TargetSpec& t) {
                                 return t.content == TargetContent::margins;
                               });
@@ -82,7 +92,6 @@ std::vector<Image> CpuRenderer::render(const DrawList& list, const Frame& frame)
   }
   counters_ = {};
   for (const EvaluationCounters& c : per_tile) counters_ += c;
-  return images;
 }
 
 }  // namespace etalon::raster

@@ -6,6 +6,8 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "raster/fast/kernels.h"
 #include "raster/fast/planes.h"
 
