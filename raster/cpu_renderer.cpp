@@ -43,14 +43,16 @@ EvaluationCounters shade_tile(const DrawList& list, const Frame& frame, const Ti
   return counters;
 }
 
-// Per target, the texel where nothing is drawn.
-std::vector<std::vector<std::byte>> clear_texels(const Frame& frame) {
-  std::vector<std::vector<std::byte>> clear;
-  std::vector<std::byte*> texels;
-  for (const TargetSpec& target : frame.targets) clear.emplace_back(static_cast<std::size_t>(bytes_per_texel(target.format)));
-  for (std::vector<std::byte>& texel : clear) texels.push_back(texel.data());
-  store_clear(frame, texels.data());
-  return clear;
+// Per target, a tile's row where nothing is drawn.
+std::vector<std::vector<std::byte>> clear_rows(const Frame& frame) {
+  std::vector<std::vector<std::byte>> rows;
+  for (const TargetSpec& target : frame.targets) rows.emplace_back(static_cast<std::size_t>(bytes_per_texel(target.format) * kTileSize));
+  std::vector<std::byte*> texels(rows.size());
+  for (int column = 0; column < kTileSize; ++column) {
+    for (std::size_t n = 0; n < rows.size(); ++n) texels[n] = rows[n].data() + column * bytes_per_texel(frame.targets[n].format);
+    store_clear(frame, texels.data());
+  }
+  return rows;
 }
 
 }  // namespace
@@ -80,7 +82,7 @@ void CpuRenderer::render_into(const DrawList& list, const Frame& frame, std::vec
   std::vector<EvaluationCounters> per_tile(bins.tiles());
   if (evaluation_ == Evaluation::vectorised) {
     const fast::RunContext context = {
-        list, frame, *fast::kernels_for(simd_level()), fast::plane_layout(list, frame), fast::largest_texels(list), clear_texels(frame)};
+        list, frame, *fast::kernels_for(simd_level()), fast::plane_layout(list, frame), fast::largest_texels(list), clear_rows(frame)};
     parallel_for(bins.tiles(), [&](std::size_t n) { per_tile[n] = fast::draw_tile(context, bins.tile(n), bins.triangles(n), images); });
   } else {
     parallel_for(bins.tiles(), [&](std::size_t n) {

@@ -22,8 +22,8 @@ struct RunContext {
   const Frame& frame;
   const Kernels& kernels;
   PlaneLayout layout;
-  std::vector<double> largest;                ///< largest_texels()
-  std::vector<std::vector<std::byte>> clear;  ///< per target, the texel where nothing is drawn
+  std::vector<double> largest;                    ///< largest_texels()
+  std::vector<std::vector<std::byte>> clear_row;  ///< per target, a tile's row where nothing is drawn
 };
 
 class RunValues {

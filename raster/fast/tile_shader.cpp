@@ -185,10 +185,9 @@ class TileShader {
 
   void clear(int column, int row, int lanes) {
     for (std::size_t n = 0; n < images_.size(); ++n) {
-      const std::vector<std::byte>& texel = context_.clear[n];
-      std::byte* const texels = images_[n].texel(tile_.x0 + column, tile_.y0 + row);
-      for (int lane = 0; lane < lanes; ++lane)
-        std::memcpy(texels + static_cast<std::size_t>(lane) * texel.size(), texel.data(), texel.size());
+      const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(context_.frame.targets[n].format));
+      std::memcpy(images_[n].texel(tile_.x0 + column, tile_.y0 + row), context_.clear_row[n].data(),
+                  static_cast<std::size_t>(lanes) * texel_bytes);
     }
   }
 
