@@ -132,6 +132,7 @@ Json bench_document(const BenchRun& run, const std::vector<SceneResult>& results
   document["machine"] = {{"date", run.machine.date},     {"cpu", run.machine.cpu},           {"cores", run.machine.cores},
                          {"system", run.machine.system}, {"compiler", run.machine.compiler}, {"load", run.machine.load}};
   document["threads"] = run.threads;
+  document["rival_threads"] = run.rival_threads;
   document["rival"] = run.rival;
   document["level"] = run.level;
   document["scenes"] = Json::array();
@@ -145,11 +146,12 @@ std::string bench_tables(const Json& document) {
     if (document.at("schema") != kSchema) throw InputError(fmt::format("expected a document {}", kSchema));
     const Json& machine = document.at("machine");
     const std::string rival = document.at("rival");
-    std::string text =
-        fmt::format("Measured on {}: {}, {} cores, {}, {}; load {:.1f} at the start. Rival: {}. {} threads each; ours at level {}.\n\n",
-                    machine.at("date").get<std::string>(), machine.at("cpu").get<std::string>(), machine.at("cores").get<int>(),
-                    machine.at("system").get<std::string>(), machine.at("compiler").get<std::string>(), machine.at("load").get<double>(),
-                    rival.empty() ? "none" : rival, document.at("threads").get<int>(), document.at("level").get<std::string>());
+    std::string text = fmt::format(
+        "Measured on {}: {}, {} cores, {}, {}; load {:.1f} at the start. Rival: {}, {} threads. Ours: {} threads, level {}.\n\n",
+        machine.at("date").get<std::string>(), machine.at("cpu").get<std::string>(), machine.at("cores").get<int>(),
+        machine.at("system").get<std::string>(), machine.at("compiler").get<std::string>(), machine.at("load").get<double>(),
+        rival.empty() ? "none" : rival, document.at("rival_threads").get<int>(), document.at("threads").get<int>(),
+        document.at("level").get<std::string>());
     return text + ratio_table(document) + "\n" + stage_table(document);
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("expected a document {}: {}", kSchema, error.what()));

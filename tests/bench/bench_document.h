@@ -15,11 +15,12 @@ namespace etalon::bench {
 struct BenchRun {
   Machine machine;
   int threads = 2;
+  int rival_threads = 2;
   std::string rival;  ///< the device's own words; empty: none
   std::string level;  ///< the reference level of ours
 };
 
-/// {schema, machine, threads, rival, level, scenes: [{name, title, rounds, work, counters, times: {way: {median, lower, upper}}, others, limit_ms,
+/// {schema, machine, threads, rival_threads, rival, level, scenes: [{name, title, rounds, work, counters, times: {way: {median, lower, upper}}, others, limit_ms,
 /// ratios: [{rival, median, lower, upper, goal, differing}]}]}. Times in milliseconds; ratios are quotients of the same round's times, and
 /// their median. Scenes without rounds are left out.
 [[nodiscard]] nlohmann::ordered_json bench_document(const BenchRun& run, const std::vector<SceneResult>& results);

@@ -28,7 +28,11 @@ SceneResult sample_result() {
 }
 
 BenchRun sample_run() {
-  return {.machine = {"2026-11-22", "a processor", 2, "a system", "a compiler", 0.5}, .threads = 2, .rival = "a device", .level = "avx2"};
+  return {.machine = {"2026-11-22", "a processor", 2, "a system", "a compiler", 0.5},
+          .threads = 2,
+          .rival_threads = 3,
+          .rival = "a device",
+          .level = "avx2"};
 }
 
 }  // namespace
@@ -49,7 +53,8 @@ TEST_CASE("bench document: medians of times, ratios of rounds, the larger limit"
 
 TEST_CASE("bench document: the tables say it") {
   const std::string tables = bench_tables(bench_document(sample_run(), {sample_result()}));
-  CHECK(tables.find("Measured on 2026-11-22: a processor, 2 cores, a system, a compiler; load 0.5") != std::string::npos);
+  CHECK(tables.find("Measured on 2026-11-22: a processor, 2 cores, a system, a compiler; load 0.5 at the start. Rival: a device, 3 "
+                    "threads. Ours: 2 threads, level avx2.") != std::string::npos);
   CHECK(tables.find("| a scene | 3.00 | 9.00 | 12.0 | **3.00** (2.00–3.00) | ≥ 2 | 1.50 | 2.0 | 1 ‰ |") != std::string::npos);
   CHECK(tables.find("| a scene | 1 | 1,234 | 1.00 | 3.00 | 0.50 | 1.50 |  | 0.01 | 0.001 | 3 | 2 % |") != std::string::npos);
 }
@@ -82,7 +87,7 @@ TEST_CASE("bench document: without a rival a scene has its times and limits") {
   BenchRun run = sample_run();
   run.rival.clear();
   const std::string tables = bench_tables(bench_document(run, {result}));
-  CHECK(tables.find("Rival: none.") != std::string::npos);
+  CHECK(tables.find("Rival: none, ") != std::string::npos);
   CHECK(tables.find("| a scene | 3.00 | | | | | 1.50 | 2.0 | |") != std::string::npos);
 }
 
@@ -128,6 +133,8 @@ TEST_CASE("bench options") {
   CHECK(wants(options, "real_head_linear"));
   CHECK_FALSE(wants(options, "terrain"));
   CHECK(wants({}, "terrain"));
+  CHECK(options.rival_threads == -1);
+  CHECK(parse_options({"--rival-threads", "0"}).rival_threads == 0);
   CHECK(parse_options({"-h"}).help);
   CHECK(usage().find("etalon_bench --scene head") != std::string::npos);
   CHECK_THROWS_WITH_AS((void)parse_options({"--threads", "0"}), "--threads: expected 1 to 32, got '0'", InputError);

@@ -40,6 +40,8 @@ BenchOptions parse_options(const std::vector<std::string>& arguments) {
       options.seconds = number(option, value(), 0, 36'000);
     else if (option == "--threads")
       options.threads = number(option, value(), 1, 32);
+    else if (option == "--rival-threads")
+      options.rival_threads = number(option, value(), 0, 32);
     else if (option == "--all-levels")
       options.all_levels = true;
     else if (option == "--only-ours")
@@ -68,6 +70,7 @@ std::string usage() {
       "of\n"
       "                     the processors in all but a few rounds till then, all rounds count, and the tables say what others took\n"
       "  --threads N        of ours and of llvmpipe (default {})\n"
+      "  --rival-threads N  of llvmpipe alone; 0: it draws in the calling thread\n"
       "  --all-levels       ours at every SIMD level that this machine has\n"
       "  --only-ours        nothing but our renderer: for a profiler\n"
       "  --json FILE        write the results\n"

@@ -10,7 +10,8 @@ struct BenchOptions {
   std::vector<std::string> scenes;  ///< parts of names; none: all scenes
   int repetitions = 15;             ///< rounds of a scene in which other programs take at most kMostOthers
   double seconds = 12;              ///< of a scene's rounds, after which no further one begins, but never fewer than kFewestRounds
-  int threads = 2;                  ///< of ours and of the rival
+  int threads = 2;                  ///< of ours, and of the rival where nothing else is asked
+  int rival_threads = -1;           ///< llvmpipe's workers, 0: it draws in the calling thread; -1: as many as ours
   bool all_levels = false;          ///< ours at each SIMD level, not only at the reference and the best one
   bool only_ours = false;
   bool list = false;

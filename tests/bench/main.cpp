@@ -121,12 +121,13 @@ int measure(const BenchOptions& options) {
   BenchRun run;
   run.machine = this_machine();
   run.threads = options.threads;
+  run.rival_threads = options.rival_threads < 0 ? options.threads : options.rival_threads;
   run.level = to_string(reference_level());
   Outcome outcome;
   std::unique_ptr<gpu::Context> context;
   if (!options.only_ours) {
     try {
-      context = gpu::make_context({.driver = gpu::Driver::llvmpipe, .threads = options.threads});
+      context = gpu::make_context({.driver = gpu::Driver::llvmpipe, .threads = run.rival_threads});
       run.rival = gpu::probe(*context).name();
     } catch (const UnavailableError& error) {
       context.reset();
