@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <istream>
 
-#include "raster/cpu_renderer.h"
+#include "tests/validation/reference/fast_subject.h"
 #include "tests/validation/reference/frame_suite.h"
 #include "tests/validation/reference/lattice_suite.h"
 #include "tests/validation/reference/mass_suite.h"
@@ -39,14 +39,14 @@ std::vector<Block> mass_blocks(Suite suite, std::uint64_t triangles, int samples
 }
 
 // Full: all triangles under all fill rules. Quick: one in twenty, each first vertex under one of the rules.
-std::vector<Block> lattice_blocks(bool full) {
+std::vector<Block> lattice_blocks(Suite suite, bool full, const MakeSubject& subject) {
   std::vector<Block> blocks;
   for (int rule = 0; rule < 4; ++rule)
     for (int first = 0; first < kLatticePoints; first += 13) {
       if (!full && (first / 13) % 4 != rule) continue;
       LatticeOptions options{first, 13, static_cast<FillRule>(rule), full ? 1 : 20, full ? 100 : 5};
-      blocks.push_back({fmt::format("lattice {} points {}..{}", to_string(options.fill_rule), first, first + 12),
-                        [options] { return run_lattice(options, raster_subject()); }});
+      blocks.push_back({fmt::format("{} {} points {}..{}", to_string(suite), to_string(options.fill_rule), first, first + 12),
+                        [options, subject] { return run_lattice(options, subject); }});
     }
   return blocks;
 }
@@ -55,7 +55,7 @@ std::vector<Block> tiling_blocks(std::uint64_t count, int size) {
   std::vector<Block> blocks;
   for (const SeedRange range : pieces(count, 1))
     blocks.push_back({fmt::format("{} size {}", seeds("tilings", range), size), [=] {
-                        raster::CpuRenderer renderer;
+                        EveryLevelRenderer renderer;
                         return run_tilings({range.first, range.count, size}, renderer);
                       }});
   return blocks;
@@ -67,7 +67,7 @@ void add_frame_blocks(std::vector<Block>& blocks, const char* suite, RunFrames r
                       int height, int triangles) {
   for (const SeedRange range : pieces(count, piece))
     blocks.push_back({fmt::format("{} {}x{}", seeds(suite, range), width, height), [=] {
-                        raster::CpuRenderer renderer;
+                        EveryLevelRenderer renderer;
                         return run({range.first, range.count, width, height, triangles}, renderer);
                       }});
 }
@@ -80,8 +80,10 @@ std::vector<Block> blocks_of(Suite suite, Length length) {
   switch (suite) {
     case Suite::mass: return mass_blocks(suite, full ? 2'000'000 : 40'000, 64, raster_subject());
     case Suite::mass_exact: return mass_blocks(suite, full ? 200'000 : 4'000, 64, exact_raster_subject());
+    case Suite::mass_fast: return mass_blocks(suite, full ? 2'000'000 : 10'000, 64, fast_subject());
     case Suite::judge: return mass_blocks(suite, full ? 10'000 : 500, 16, judge_subject(Arithmetic::rational));
-    case Suite::lattice: return lattice_blocks(full);
+    case Suite::lattice: return lattice_blocks(suite, full, raster_subject());
+    case Suite::lattice_fast: return lattice_blocks(suite, full, fast_subject());
     case Suite::tilings: return full ? tiling_blocks(6, 2048) : tiling_blocks(1, 512);
     case Suite::frames:
       add_frame_blocks(blocks, "frames", run_frames, full ? 10'000 : 100, 100, 24, 24, 30);
@@ -93,8 +95,8 @@ std::vector<Block> blocks_of(Suite suite, Length length) {
 }
 
 const std::vector<Suite>& all_suites() {
-  static const std::vector<Suite> kSuites{Suite::mass,    Suite::mass_exact, Suite::judge,  Suite::lattice,
-                                          Suite::tilings, Suite::frames,     Suite::threads};
+  static const std::vector<Suite> kSuites{Suite::mass,         Suite::mass_exact, Suite::mass_fast, Suite::judge,  Suite::lattice,
+                                          Suite::lattice_fast, Suite::tilings,    Suite::frames,    Suite::threads};
   return kSuites;
 }
 
@@ -102,8 +104,10 @@ const char* to_string(Suite suite) {
   switch (suite) {
     case Suite::mass: return "mass";
     case Suite::mass_exact: return "mass_exact";
+    case Suite::mass_fast: return "mass_fast";
     case Suite::judge: return "judge";
     case Suite::lattice: return "lattice";
+    case Suite::lattice_fast: return "lattice_fast";
     case Suite::tilings: return "tilings";
     case Suite::frames: return "frames";
     case Suite::threads: return "threads";

@@ -12,13 +12,15 @@
 namespace etalon::validation::reference {
 
 enum class Suite {
-  mass,        ///< CpuRenderer's code for one sample (double enclosures first) against the judge: random triangles
-  mass_exact,  ///< the same with wide integers always
-  judge,       ///< the judge in rationals against the judge in integers
-  lattice,     ///< every triangle on a lattice
-  tilings,     ///< shared edges covered exactly once
-  frames,      ///< whole frames after visibility
-  threads,     ///< the same bytes with 1, 2 and 7 threads
+  mass,          ///< CpuRenderer's code for one sample (double enclosures first) against the judge: random triangles
+  mass_exact,    ///< the same with wide integers always
+  mass_fast,     ///< the same with the fast path, at every SIMD level of this machine
+  judge,         ///< the judge in rationals against the judge in integers
+  lattice,       ///< every triangle on a lattice
+  lattice_fast,  ///< the same with the fast path, at every SIMD level
+  tilings,       ///< shared edges covered exactly once
+  frames,        ///< whole frames after visibility, at every SIMD level, as the tilings
+  threads,       ///< the same bytes with 1, 2 and 7 threads
 };
 
 enum class Length {
