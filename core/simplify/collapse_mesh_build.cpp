@@ -189,6 +189,7 @@ class CollapseMeshBuilder {
       walk_fan(first, [&](std::uint32_t) { ++reached; });
       if (reached < out.size()) split_fans(v, first);
     }
+    to_.out_.insert(to_.out_.end(), extra_first_.begin(), extra_first_.end());
     must_stay_.resize(to_.out_.size(), true);
   }
 
@@ -215,7 +216,6 @@ class CollapseMeshBuilder {
   }
 
   void mark_curves() {
-    to_.out_.insert(to_.out_.end(), extra_first_.begin(), extra_first_.end());
     const auto uv = [&](std::uint32_t h) { return mesh_.wedges[to_.wedges_[h]].uv; };
     const auto material = [&](std::uint32_t h) { return mesh_.face_materials.empty() ? 0u : mesh_.face_materials[h >> 2]; };
     for (std::uint32_t f = 0; f < to_.faces_.size(); ++f) {

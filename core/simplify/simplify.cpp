@@ -9,6 +9,7 @@
 #include "core/base/float_environment.h"
 #include "core/simplify/collapse_loop.h"
 #include "core/simplify/extract.h"
+#include "core/simplify/landing_tracker.h"
 
 namespace etalon::simplify {
 
@@ -57,12 +58,28 @@ void count_kinds(const CollapseMesh& mesh, SimplifyResult& result) {
   }
 }
 
+// From faces of the input to those of the result, and how far each vertex has gone.
+void measure_landings(const Mesh& source, SimplifyResult& result) {
+  std::vector<FaceId> new_face(source.face_count());
+  for (std::size_t f = 0; f < result.source_face.size(); ++f) new_face[result.source_face[f].index] = FaceId(f);
+  double distance2 = 0;
+  for (std::size_t v = 0; v < result.landings.size(); ++v) {
+    Landing& landing = result.landings[v];
+    if (!landing.face.valid()) continue;
+    landing.face = new_face[landing.face.index];
+    distance2 = std::max(distance2, squared_distance(to_double(source.positions[v]), landing_point(result.mesh, landing)));
+  }
+  result.distance_max = std::sqrt(distance2);
+}
+
 template <class Metric>
 void run(CollapseMesh& mesh, const UnitPositions& positions, Metric& metric, const SimplifyOptions& options, SimplifyResult& result) {
   Legality legality(mesh, positions, options.legality);
   CollapseLoop<Metric> loop(mesh, metric, legality);
   const std::size_t faces_before = mesh.face_count();
   const std::size_t to_remove = faces_before > options.target_faces ? faces_before - options.target_faces : 0;
+  std::optional<LandingTracker> tracker;
+  if (options.record_landings) tracker.emplace(mesh);
   double squared_error = 0;
   while (mesh.face_count() > options.target_faces) {
     const auto step = loop.find();
@@ -73,7 +90,9 @@ void run(CollapseMesh& mesh, const UnitPositions& positions, Metric& metric, con
     result.max_cost = std::max(result.max_cost, step.cost);
     squared_error = std::max(squared_error, metric.squared_distance(step.u, step.v));
     if (options.before_collapse) options.before_collapse(mesh, {step.u, step.v, step.edge, step.cost});
+    if (tracker) tracker->before(step.u, step.edge);
     loop.apply(step);
+    if (tracker) tracker->after();
     if (options.after_collapse) options.after_collapse(mesh);
     ++result.collapse_count;
     if (options.progress && result.collapse_count % 1000 == 0) options.progress(faces_before - mesh.face_count(), to_remove);
@@ -81,6 +100,7 @@ void run(CollapseMesh& mesh, const UnitPositions& positions, Metric& metric, con
   result.error = std::sqrt(squared_error) * positions.unit;
   result.refusals = loop.refusals();
   result.state_bytes_per_vertex = Metric::kStateBytes;
+  if (tracker) result.landings = tracker->landings();
 }
 
 }  // namespace
@@ -99,6 +119,7 @@ SimplifyResult simplify_mesh(const Mesh& mesh, const SimplifyOptions& options) {
   QemMetric metric(triangles, positions, options.qem);
   run(triangles, positions, metric, options, result);
   extract(triangles, result);
+  if (options.record_landings) measure_landings(mesh, result);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "core/mesh/landing.h"
 #include "core/simplify/legality.h"
 #include "core/simplify/qem_metric.h"
 
@@ -25,6 +26,7 @@ struct SimplifyOptions {
   std::size_t target_faces = 0;      ///< stop at the first count that is not above it: one below where an inner edge passes it
   std::vector<VertexId> locked;      ///< vertices that stay where they are; others may still collapse into them
   bool refuse_non_manifold = false;  ///< InputError for an input that is no oriented manifold, instead of locking those places
+  bool record_landings = false;      ///< fill SimplifyResult::landings; at 10 % about twice the time
   QemOptions qem;
   LegalityOptions legality;
   /// Called before each collapse with the mesh as it still is; for observers that build on the sequence.
@@ -55,6 +57,9 @@ struct SimplifyResult {
   std::size_t interior_vertices = 0, curve_vertices = 0, locked_vertices = 0;  ///< of the input, by kind (VertexKind)
   InputRepair repair;
   std::size_t state_bytes_per_vertex = 0;  ///< of the metric
+  std::vector<Landing> landings;           ///< #V of the input, on `mesh`; empty unless recorded
+  /// Largest distance of a vertex of the input to its landing: no vertex is farther from `mesh` than that. Nothing unless landings are recorded.
+  std::optional<double> distance_max;
 };
 
 /// Collapses until the target or until nothing legal is left. The same bytes for every machine, compiler and thread count: double arithmetic in a
