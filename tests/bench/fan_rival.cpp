@@ -87,7 +87,7 @@ Image FanRival::back_and_forth_map() const {
   Image left = read(b_);
   const Image right = read(a_);
   const int half = left.width() / 2;
-  const auto row_bytes = static_cast<std::size_t>(half * bytes_per_texel(kRg32f));
+  const auto row_bytes = static_cast<std::size_t>(half) * static_cast<std::size_t>(bytes_per_texel(kRg32f));
   for (int y = 0; y < left.height(); ++y) std::memcpy(left.texel(half, y), right.texel(half, y), row_bytes);
   return left;
 }
