@@ -17,6 +17,10 @@ void add_gl_options(CLI::App& verb, GlOptions& options) {
   verb.add_option("--driver", options.driver, "Mesa's rasterizer: llvmpipe, softpipe, default")
       ->type_name("NAME")
       ->check(CLI::IsMember({"llvmpipe", "softpipe", "default"}));
+  verb.add_option("--shader", options.shader,
+                  "native: what an application would write (default); exact: the contract evaluated in the shader, same bytes")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"native", "exact"}));
 }
 
 #ifdef ETALON_HAVE_GPU
@@ -42,8 +46,10 @@ OpenedDevice open_device(const GlOptions& options, int threads) {
   OpenedDevice opened;
   try {
     auto renderer = std::make_unique<gpu::GlRenderer>(
-        gpu::ContextOptions{.driver = driver_of(options.driver), .threads = threads > 0 ? threads : -1, .library_path = ""});
-    opened.model = model_of(renderer->device());
+        gpu::ContextOptions{.driver = driver_of(options.driver), .threads = threads > 0 ? threads : -1, .library_path = ""},
+        options.shader == "exact" ? gpu::ShaderMode::exact : gpu::ShaderMode::native);
+    // The exact shader owes the contract itself: no bound is lent to it.
+    opened.model = options.shader == "exact" ? validation::contract_model() : model_of(renderer->device());
     opened.renderer = std::move(renderer);
   } catch (const UnavailableError& error) {
     opened.unavailable = error.what();

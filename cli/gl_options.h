@@ -1,4 +1,4 @@
-// The GL side of the command line: --context, --driver, and the device they lead to.
+// The GL side of the command line: --context, --driver, --shader, and the device they lead to.
 #pragma once
 
 #include <memory>
@@ -14,6 +14,7 @@ namespace etalon::cli {
 struct GlOptions {
   std::string context = "auto";
   std::string driver = "default";
+  std::string shader = "native";  ///< or exact: the device then owes every bound 0
 };
 
 void add_gl_options(CLI::App& verb, GlOptions& options);

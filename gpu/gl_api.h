@@ -67,6 +67,9 @@ using Ubyte = unsigned char;
   F(kRgba, RGBA, 0x1908) \
   F(kRg, RG, 0x8227) \
   F(kRedInteger, RED_INTEGER, 0x8D94) \
+  F(kRgInteger, RG_INTEGER, 0x8228) \
+  F(kRgbInteger, RGB_INTEGER, 0x8D98) \
+  F(kRgbaInteger, RGBA_INTEGER, 0x8D99) \
   F(kVendor, VENDOR, 0x1F00) \
   F(kRenderer, RENDERER, 0x1F01) \
   F(kVersion, VERSION, 0x1F02) \
@@ -115,7 +118,18 @@ using Ubyte = unsigned char;
   F(kRg32f, RG32F, 0x8230) \
   F(kRgb32f, RGB32F, 0x8815) \
   F(kRgba32f, RGBA32F, 0x8814) \
+  F(kR8ui, R8UI, 0x8232) \
+  F(kRg8ui, RG8UI, 0x8238) \
+  F(kRgb8ui, RGB8UI, 0x8D7D) \
+  F(kRgba8ui, RGBA8UI, 0x8D7C) \
+  F(kR16ui, R16UI, 0x8234) \
+  F(kRg16ui, RG16UI, 0x823A) \
+  F(kRgb16ui, RGB16UI, 0x8D77) \
+  F(kRgba16ui, RGBA16UI, 0x8D76) \
   F(kR32ui, R32UI, 0x8236) \
+  F(kRg32ui, RG32UI, 0x823C) \
+  F(kRgb32ui, RGB32UI, 0x8D71) \
+  F(kRgba32ui, RGBA32UI, 0x8D70) \
   F(kDepthComponent32f, DEPTH_COMPONENT32F, 0x8CAC)
 
 #define ETALON_GL_DECLARE_CONSTANT(constant, name, value) inline constexpr Enum constant = value;
@@ -165,6 +179,7 @@ ETALON_GL_CONSTANTS(ETALON_GL_DECLARE_CONSTANT)
   F(void, bind_framebuffer, BindFramebuffer, (Enum target, Uint id)) \
   F(void, framebuffer_renderbuffer, FramebufferRenderbuffer, (Enum target, Enum attachment, Enum renderbuffer_target, Uint id)) \
   F(void, framebuffer_texture_2d, FramebufferTexture2D, (Enum target, Enum attachment, Enum texture_target, Uint texture, Int level)) \
+  F(void, scissor, Scissor, (Int x, Int y, Sizei width, Sizei height)) \
   F(Enum, check_framebuffer_status, CheckFramebufferStatus, (Enum target)) \
   F(void, gen_textures, GenTextures, (Sizei count, Uint* ids)) \
   F(void, delete_textures, DeleteTextures, (Sizei count, const Uint* ids)) \
@@ -187,7 +202,10 @@ ETALON_GL_CONSTANTS(ETALON_GL_DECLARE_CONSTANT)
   F(void, delete_program, DeleteProgram, (Uint program)) \
   F(void, use_program, UseProgram, (Uint program)) \
   F(Int, get_uniform_location, GetUniformLocation, (Uint program, const Char* name)) \
-  F(void, uniform_1i, Uniform1i, (Int location, Int value))
+  F(void, uniform_1i, Uniform1i, (Int location, Int value)) \
+  F(void, uniform_1ui, Uniform1ui, (Int location, Uint value)) \
+  F(void, uniform_2i, Uniform2i, (Int location, Int x, Int y)) \
+  F(void, uniform_2f, Uniform2f, (Int location, Float x, Float y))
 // clang-format on
 
 /// The functions of one context's library; every member is set once load_api() has returned.

@@ -24,6 +24,9 @@ struct GlFormat {
 [[nodiscard]] PixelFormat stored_target_format(PixelFormat format);
 [[nodiscard]] GlFormat target_format(PixelFormat format);
 
+/// The bits of each channel as an unsigned integer of its size, for sources and targets; targets of three channels are stored as four.
+[[nodiscard]] GlFormat bits_format(PixelFormat format);
+
 /// UnavailableError, naming `what`, where an image takes 2^31 bytes or more on the device: Mesa 22.3 computes offsets into an image as int,
 /// and glReadPixels of a 16384 x 16384 RG32F target (2^31 bytes) was seen to crash instead of reporting an error.
 void require_addressable(int width, int height, PixelFormat stored, const std::string& what);

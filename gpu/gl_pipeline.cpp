@@ -42,6 +42,48 @@ bool has_content(const Frame& frame, TargetContent content) {
 
 }  // namespace
 
+void require_size(const Frame& frame, const DeviceLimits& limits) {
+  if (frame.width > limits.max_target_size_texel || frame.height > limits.max_target_size_texel) {
+    throw UnavailableError(fmt::format("OpenGL: a frame of {} x {} texels: this device draws at most {} a side", frame.width, frame.height,
+                                       limits.max_target_size_texel));
+  }
+  const GuardViewport viewport = guard_viewport(frame);
+  if (viewport.width > limits.max_viewport_width_texel || viewport.height > limits.max_viewport_height_texel) {
+    throw UnavailableError(fmt::format("OpenGL: frame and guard need a viewport of {} x {} texels: this device has at most {} x {}",
+                                       viewport.width, viewport.height, limits.max_viewport_width_texel, limits.max_viewport_height_texel));
+  }
+}
+
+void set_raster_state(const gl::Api& gl, const Frame& frame) {
+  const GuardViewport viewport = guard_viewport(frame);
+  gl.viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  gl.pixel_storei(gl::kPackAlignment, 1);
+  gl.disable(gl::kDither);       // on by default
+  gl.disable(gl::kMultisample);  // on by default
+  gl.disable(gl::kBlend);
+  gl.disable(gl::kScissorTest);
+  gl.disable(gl::kStencilTest);
+  gl.disable(gl::kFramebufferSrgb);
+  gl.color_mask(1, 1, 1, 1);
+  // No vertex is beyond the planes z = ±w (rounding (2z − 1)·w keeps the order), so nothing is clipped either way; the clamp keeps a
+  // device from writing a depth that it interpolated past 0 or 1. llvmpipe was seen to draw the same without it.
+  gl.enable(gl::kDepthClamp);
+  gl.depth_range(0, 1);
+  // Disabling the depth test would also stop depth from being written.
+  gl.enable(gl::kDepthTest);
+  gl.depth_func(frame.state.depth_test ? gl::kLess : gl::kAlways);
+  gl.depth_mask(1);
+  if (frame.state.cull == CullMode::none) {
+    gl.disable(gl::kCullFace);
+  } else {
+    // Rows grow upwards as OpenGL's window does, so its orientation is ours.
+    gl.enable(gl::kCullFace);
+    gl.cull_face(gl::kBack);
+    gl.front_face(frame.state.cull == CullMode::clockwise ? gl::kCcw : gl::kCw);
+  }
+  gl::check_error(gl, "setting the state");
+}
+
 GlPipeline::GlPipeline(Context& context) : context_(context), gl_(context.gl()) {
   context_.make_current();
   limits_ = query_limits(gl_);
@@ -75,23 +117,16 @@ std::vector<Image> GlPipeline::draw(const DrawList& list, const Frame& frame) {
   context_.make_current();
   prepare_targets(frame);
   targets_->bind_and_clear(frame);
-  set_state(frame);
+  set_raster_state(gl_, frame);
+  gl_.bind_vertex_array(vertex_array_.id());
+  gl_.bind_buffer(gl::kArrayBuffer, vertex_buffer_.id());
   Textures textures;
   draw_triangles(list, frame, has_content(frame, TargetContent::color), textures);
   return targets_->read_back();
 }
 
 void GlPipeline::check_limits(const Frame& frame) const {
-  if (frame.width > limits_.max_target_size_texel || frame.height > limits_.max_target_size_texel) {
-    throw UnavailableError(fmt::format("OpenGL: a frame of {} x {} texels: this device draws at most {} a side", frame.width, frame.height,
-                                       limits_.max_target_size_texel));
-  }
-  const GuardViewport viewport = guard_viewport(frame);
-  if (viewport.width > limits_.max_viewport_width_texel || viewport.height > limits_.max_viewport_height_texel) {
-    throw UnavailableError(fmt::format("OpenGL: frame and guard need a viewport of {} x {} texels: this device has at most {} x {}",
-                                       viewport.width, viewport.height, limits_.max_viewport_width_texel,
-                                       limits_.max_viewport_height_texel));
-  }
+  require_size(frame, limits_);
   const auto colors = std::count_if(frame.targets.begin(), frame.targets.end(),
                                     [](const TargetSpec& spec) { return spec.content != TargetContent::depth; });
   if (colors > limits_.max_color_targets) {
@@ -104,38 +139,6 @@ void GlPipeline::prepare_targets(const Frame& frame) {
   if (targets_ && targets_->matches(frame)) return;
   targets_.reset();  // before the new ones: both together might not fit into memory
   targets_ = std::make_unique<GlTargets>(gl_, frame);
-}
-
-void GlPipeline::set_state(const Frame& frame) const {
-  const GuardViewport viewport = guard_viewport(frame);
-  gl_.viewport(viewport.x, viewport.y, viewport.width, viewport.height);
-  gl_.pixel_storei(gl::kPackAlignment, 1);
-  gl_.disable(gl::kDither);       // on by default
-  gl_.disable(gl::kMultisample);  // on by default
-  gl_.disable(gl::kBlend);
-  gl_.disable(gl::kScissorTest);
-  gl_.disable(gl::kStencilTest);
-  gl_.disable(gl::kFramebufferSrgb);
-  gl_.color_mask(1, 1, 1, 1);
-  // No vertex is beyond the planes z = ±w (rounding (2z − 1)·w keeps the order), so nothing is clipped either way; the clamp keeps a
-  // device from writing a depth that it interpolated past 0 or 1. llvmpipe was seen to draw the same without it.
-  gl_.enable(gl::kDepthClamp);
-  gl_.depth_range(0, 1);
-  // Disabling the depth test would also stop depth from being written.
-  gl_.enable(gl::kDepthTest);
-  gl_.depth_func(frame.state.depth_test ? gl::kLess : gl::kAlways);
-  gl_.depth_mask(1);
-  if (frame.state.cull == CullMode::none) {
-    gl_.disable(gl::kCullFace);
-  } else {
-    // Rows grow upwards as OpenGL's window does, so its orientation is ours.
-    gl_.enable(gl::kCullFace);
-    gl_.cull_face(gl::kBack);
-    gl_.front_face(frame.state.cull == CullMode::clockwise ? gl::kCcw : gl::kCw);
-  }
-  gl_.bind_vertex_array(vertex_array_.id());
-  gl_.bind_buffer(gl::kArrayBuffer, vertex_buffer_.id());
-  gl::check_error(gl_, "setting the state");
 }
 
 gl::Uint GlPipeline::program_for(Shading shading, const std::vector<TargetSpec>& targets) {

@@ -24,6 +24,12 @@ struct DeviceLimits {
   int max_color_targets = 0;
 };
 
+/// UnavailableError where frame or guard viewport exceed the device.
+void require_size(const Frame& frame, const DeviceLimits& limits);
+
+/// Viewport, culling and depth test of a frame; everything that could change a colour on its way to a target is off.
+void set_raster_state(const gl::Api& gl, const Frame& frame);
+
 /// Programs, buffers and the last frame's targets are kept between calls. The context must outlive it.
 class GlPipeline {
  public:
@@ -48,7 +54,6 @@ class GlPipeline {
 
   void check_limits(const Frame& frame) const;
   void prepare_targets(const Frame& frame);
-  void set_state(const Frame& frame) const;
   [[nodiscard]] gl::Uint program_for(Shading shading, const std::vector<TargetSpec>& targets);
   void draw_triangles(const DrawList& list, const Frame& frame, bool shaded, Textures& textures);
   void bind_textures(const DrawList& list, const Draw& draw, Textures& textures) const;

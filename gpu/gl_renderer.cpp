@@ -10,37 +10,43 @@ namespace etalon::gpu {
 
 namespace {
 
-bool is_real_target(PixelFormat format) {
-  return format.type != ChannelType::srgb8 && format.type != ChannelType::uint32 && format.channels >= 1 && format.channels <= 4;
+bool is_real_target(PixelFormat format, bool srgb) {
+  return (srgb || format.type != ChannelType::srgb8) && format.type != ChannelType::uint32 && format.channels >= 1 && format.channels <= 4;
 }
 
 }  // namespace
 
-GlRenderer::GlRenderer(std::unique_ptr<Context> context) : context_(std::move(context)) {
+std::string to_string(ShaderMode mode) { return mode == ShaderMode::exact ? "exact" : "native"; }
+
+GlRenderer::GlRenderer(std::unique_ptr<Context> context, ShaderMode mode) : context_(std::move(context)) {
   pipeline_ = std::make_unique<GlPipeline>(*context_);
   device_ = probe(*context_, *pipeline_);
+  if (mode == ShaderMode::exact) exact_ = std::make_unique<ExactPipeline>(*context_, device_.limits);
 }
 
-GlRenderer::GlRenderer(const ContextOptions& options) : GlRenderer(make_context(options)) {}
+GlRenderer::GlRenderer(const ContextOptions& options, ShaderMode mode) : GlRenderer(make_context(options), mode) {}
 
 GlRenderer::~GlRenderer() = default;
 
-std::string GlRenderer::name() const { return device_.name(); }
+std::string GlRenderer::name() const { return exact_ ? device_.name() + ", exact shader" : device_.name(); }
 
 RasterState GlRenderer::supported_state(const RasterState& wanted) const {
   RasterState state = wanted;
   state.subtexel_bits = std::min(wanted.subtexel_bits, device_.subtexel_bits);
   state.fill_rule = device_.fill_rule.value_or(wanted.fill_rule);
-  state.half_rounding = device_.half_rounding;
+  if (exact_)
+    state.subtexel_bits = std::min(state.subtexel_bits, kExactSubtexelBits);
+  else
+    state.half_rounding = device_.half_rounding;
   return state;
 }
 
 bool GlRenderer::supports(const TargetSpec& target) const {
   switch (target.content) {
-    case TargetContent::color: return is_real_target(target.format);
+    case TargetContent::color: return is_real_target(target.format, exact_ != nullptr);
     case TargetContent::triangle_id: return target.format == kR32ui;
-    case TargetContent::barycentrics: return is_real_target(target.format) && target.format.channels == 3;
-    case TargetContent::coordinate: return is_real_target(target.format) && target.format.channels == 2;
+    case TargetContent::barycentrics: return is_real_target(target.format, exact_ != nullptr) && target.format.channels == 3;
+    case TargetContent::coordinate: return is_real_target(target.format, exact_ != nullptr) && target.format.channels == 2;
     case TargetContent::depth: return target.format == kR32f;
     case TargetContent::margins:
     case TargetContent::bound_terms: return false;
@@ -51,7 +57,7 @@ bool GlRenderer::supports(const TargetSpec& target) const {
 std::vector<Image> GlRenderer::render(const DrawList& list, const Frame& frame) {
   validate(list, frame);
   require_support(frame);
-  return pipeline_->draw(list, frame);
+  return exact_ ? exact_->draw(list, frame) : pipeline_->draw(list, frame);
 }
 
 void GlRenderer::require_support(const Frame& frame) const {

@@ -12,17 +12,25 @@
 
 #include "core/draw/renderer.h"
 #include "gpu/context.h"
+#include "gpu/exact_pipeline.h"
 #include "gpu/gl_pipeline.h"
 #include "gpu/probe.h"
 
 namespace etalon::gpu {
 
+/// Where values come from: interpolated by the device, or the contract evaluated in the shader (docs/exact-shader.md).
+enum class ShaderMode : std::uint8_t {
+  native,  ///< what an application would write
+  exact,   ///< identical bytes wherever coverage is; OpenGL 4.0; nearest filtering
+};
+[[nodiscard]] std::string to_string(ShaderMode mode);
+
 /// Not thread-safe; several renderers may live in one process, each with its context.
 class GlRenderer : public Renderer {
  public:
-  /// Takes a context and probes it; UnavailableError as make_context() and render().
-  explicit GlRenderer(std::unique_ptr<Context> context);
-  explicit GlRenderer(const ContextOptions& options = {});
+  /// Takes a context and probes it; UnavailableError as make_context() and render(), and where the device cannot run the exact shader.
+  explicit GlRenderer(std::unique_ptr<Context> context, ShaderMode mode = ShaderMode::native);
+  explicit GlRenderer(const ContextOptions& options = {}, ShaderMode mode = ShaderMode::native);
   ~GlRenderer() override;
 
   [[nodiscard]] std::string name() const override;
@@ -39,6 +47,7 @@ class GlRenderer : public Renderer {
   [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override;
 
   [[nodiscard]] const DeviceInfo& device() const { return device_; }
+  [[nodiscard]] ShaderMode shader_mode() const { return exact_ ? ShaderMode::exact : ShaderMode::native; }
 
  private:
   void require_support(const Frame& frame) const;
@@ -46,6 +55,7 @@ class GlRenderer : public Renderer {
   std::unique_ptr<Context> context_;
   std::unique_ptr<GlPipeline> pipeline_;  ///< dies before its context
   DeviceInfo device_;
+  std::unique_ptr<ExactPipeline> exact_;  ///< in exact mode; dies before its context
 };
 
 }  // namespace etalon::gpu

@@ -217,8 +217,8 @@ TexelVerdict TexelExplainer::explain(int x, int y) {
     }
   }
   verdict.texel_class = std::max(verdict.texel_class, TexelClass::rounding);  // the bytes differ, whatever explains them
-  // Against the contract itself there is no rounding to allow.
-  if (verdict.texel_class == TexelClass::rounding && input_.device.factor == 0) verdict.texel_class = TexelClass::unexplained;
+  // Against the contract itself there is no rounding to allow, and no tie: it decides each of them.
+  if (input_.device.factor == 0) verdict.texel_class = TexelClass::unexplained;
   if (verdict.texel_class == TexelClass::unexplained) {
     gather();
     verdict.cause = cause_of(x, y, covering, golden);

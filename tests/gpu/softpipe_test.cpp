@@ -43,6 +43,18 @@ TEST_CASE("softpipe has a state of its own and refuses llvmpipe's") {
   CHECK_NOTHROW(static_cast<void>(renderer->render({}, frame)));
 }
 
+TEST_CASE("softpipe has no doubles in shaders: no exact mode, in words") {
+  if (!softpipe_or_skip("softpipe exact")) return;
+  std::string line;
+  try {
+    const GlRenderer renderer(ContextOptions{.driver = Driver::softpipe}, ShaderMode::exact);
+  } catch (const UnavailableError& error) {
+    line = error.what();
+  }
+  CHECK(line.find("the exact shader needs version 4.0, for doubles in shaders") != std::string::npos);
+  CHECK(line.find("gives 3.3") != std::string::npos);
+}
+
 TEST_CASE("softpipe copies a texture and fills all targets") {
   const std::unique_ptr<GlRenderer> renderer = softpipe_or_skip("softpipe copy");
   if (!renderer) return;

@@ -1,7 +1,9 @@
-// etalon_crosscheck [TEXELS [FIRST_SEED [LARGEST]]]: the CPU renderer against OpenGL on random scenes, until TEXELS texels are compared.
+// etalon_crosscheck [--shader exact] [TEXELS [FIRST_SEED [LARGEST]]]: the CPU renderer against OpenGL on random scenes, until TEXELS texels
+// are compared; with the exact shader every byte that differs is unexplained.
 // A long run is resumed with the seed the last table ends before. Exit 0: nothing unexplained; 2: something is; 1: no OpenGL here.
 #include <cstdio>
 #include <cstdlib>
+#include <string_view>
 
 #include "core/base/error.h"
 #include "gpu/gl_renderer.h"
@@ -11,6 +13,11 @@
 int main(int argc, char** argv) {
   using namespace etalon;
   test::CrossCheckOptions options;
+  if (argc > 2 && std::string_view(argv[1]) == "--shader") {
+    options.exact = std::string_view(argv[2]) == "exact";
+    argc -= 2;
+    argv += 2;
+  }
   if (argc > 1) options.texels = std::strtoull(argv[1], nullptr, 10);
   if (argc > 2) options.first_seed = std::strtoull(argv[2], nullptr, 10);
   if (argc > 3) options.largest = std::atoi(argv[3]);
@@ -22,9 +29,11 @@ int main(int argc, char** argv) {
   };
   try {
     raster::CpuRenderer cpu;
-    gpu::GlRenderer gl(gpu::ContextOptions{.driver = gpu::Driver::llvmpipe});
+    gpu::GlRenderer gl(gpu::ContextOptions{.driver = gpu::Driver::llvmpipe},
+                       options.exact ? gpu::ShaderMode::exact : gpu::ShaderMode::native);
+    const validation::DeviceModel model = options.exact ? validation::contract_model() : validation::llvmpipe_model();
     std::printf("%s against %s\n", cpu.name().c_str(), gl.name().c_str());
-    const test::CrossCheckTotals totals = test::cross_check(cpu, gl, validation::llvmpipe_model(), options);
+    const test::CrossCheckTotals totals = test::cross_check(cpu, gl, model, options);
     std::fputs(test::format_totals(totals).c_str(), stdout);
     return totals.total[validation::TexelClass::unexplained] == 0 ? 0 : 2;
   } catch (const UnavailableError& error) {

@@ -294,4 +294,23 @@ RandomScene make_random_scene(std::uint64_t seed, const RasterState& device_stat
   return scene;
 }
 
+RandomScene make_exact_scene(std::uint64_t seed, const RasterState& device_state, int largest) {
+  Rng rng(seed * 0xBF58476D1CE4E5B9ull + 7);
+  RasterState state = device_state;
+  state.half_rounding = rng.coin() ? HalfRounding::nearest_even : HalfRounding::toward_zero;
+  if (rng.coin()) state.subtexel_bits = static_cast<int>(rng.between(1, device_state.subtexel_bits));
+  RandomScene scene = make_random_scene(seed, state, largest);
+  for (Draw& draw : scene.list.draws) draw.sampler.filter = draw.map_sampler.filter = Filter::nearest;
+  for (TargetSpec& target : scene.frame.targets) {
+    if (target.format.type == ChannelType::unorm8 && rng.coin()) target.format.type = ChannelType::srgb8;
+  }
+  for (auto& image : scene.list.images) {
+    if (image->format().type != ChannelType::unorm8 || rng.coin()) continue;
+    Image srgb(image->width(), image->height(), {ChannelType::srgb8, image->format().channels});
+    std::copy(image->bytes().begin(), image->bytes().end(), srgb.bytes().begin());
+    image = std::make_shared<const Image>(std::move(srgb));
+  }
+  return scene;
+}
+
 }  // namespace etalon::test

@@ -34,4 +34,8 @@ struct RandomScene {
 /// `device_state`: what the device has of its own (fill rule, half rounding, sub-texel bits).
 [[nodiscard]] RandomScene make_random_scene(std::uint64_t seed, const RasterState& device_state, int largest = 512);
 
+/// The same for a renderer that keeps the contract to the last bit: half rounding, sub-texel bits (1 up to the state's), sRGB images and
+/// targets vary with the seed too; everything is filtered nearest.
+[[nodiscard]] RandomScene make_exact_scene(std::uint64_t seed, const RasterState& device_state, int largest = 512);
+
 }  // namespace etalon::test
