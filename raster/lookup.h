@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/draw/draw_list.h"
+#include "raster/narrow_split.h"
 #include "raster/sample_numbers.h"
 #include "raster/storage.h"
 #include "raster/texture.h"
@@ -22,6 +24,21 @@ struct TriangleCoordinate {
   }
   /// Limbs for border decisions and linear values with texels of `texel_bits` bits.
   [[nodiscard]] int limbs(int texel_bits) const { return numbers.setup.linear_limbs(texel_bits); }
+  /// u·size − offset/2; nothing where 128 bits may not hold it.
+  [[nodiscard]] std::optional<NarrowSplit> split(int axis, int size, int offset) const {
+    const ExactTriple& t = numbers.setup.attribute[kU + axis];
+    // Σ weights < 2^weight_bits; times a mantissa, a size of 16 bits, 2 and the scale.
+    if (numbers.setup.weight_bits + std::max(t.bits + 17 + std::max(-t.k, 0), t.k + 2) > 125) return std::nullopt;
+    __int128 n = 0, d = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const __int128 weight = numbers.e[k] * numbers.setup.w_exact[k];
+      n += weight * t.m[k];
+      d += weight;
+    }
+    n = (n << std::max(-t.k, 0)) * size * 2;
+    d <<= std::max(t.k, 0);
+    return narrow_split(n - offset * d, 2 * d);
+  }
 };
 
 /// Two numbers read from an indexing map.
@@ -31,6 +48,12 @@ struct StoredCoordinate {
     const double v = value[static_cast<std::size_t>(axis)].approximate();
     const double error = std::abs(v) * 0x1p-49;
     return {v - error, v + error};
+  }
+  [[nodiscard]] std::optional<NarrowSplit> split(int axis, int size, int offset) const {
+    const TexelValue& v = value[static_cast<std::size_t>(axis)];  // |m| < 2^24 where den is 1, and |m| <= den, e = 0 elsewhere
+    if (v.e > 40 || v.e < -80) return std::nullopt;
+    const __int128 n = (static_cast<__int128>(v.m) << std::max(v.e, 0)) * size * 2, d = static_cast<__int128>(v.den) << std::max(-v.e, 0);
+    return narrow_split(n - offset * d, 2 * d);
   }
   template <int kLimbs>
   [[nodiscard]] Quotient<kLimbs> quotient(int axis) const {
@@ -97,10 +120,14 @@ class Lookup {
 
   /// Stores channel c of the looked-up value.
   template <class Coordinate>
-  void store(const Coordinate& at, int c, const ChannelStore& to, std::byte* out) const {
+  void store(const Coordinate& at, int c, const ChannelStore& to, std::byte* out) {
     if (sampler_.filter == Filter::nearest) return to.store(texel_value(image_, x_[0], y_[0], c, false), out);
     ++counters_.values;
     if (!exact_only_ && decided_ && to.try_store(enclose_linear(c), out)) return;
+    if (!exact_only_ && sharpen(at) && to.try_store(enclose_linear(c), out)) {
+      ++counters_.narrow;
+      return;
+    }
     ++counters_.exact_path;
     with_limbs(at.limbs(filtered_texel_bits(image_.format().type)),
                [&]<int kLimbs>() { to.store_exact(exact_linear<kLimbs>(at, c), out); });
@@ -108,7 +135,7 @@ class Lookup {
 
   /// Channel c as the coordinate of a second lookup: the stored number, or the linear value rounded once to float32 and canonical.
   template <class Coordinate>
-  [[nodiscard]] TexelValue as_coordinate(const Coordinate& at, int c) const {
+  [[nodiscard]] TexelValue as_coordinate(const Coordinate& at, int c) {
     if (sampler_.filter == Filter::nearest) return texel_value(image_, x_[0], y_[0], c, false);
     float value = 0;
     store(at, c, {ChannelType::float32, false, HalfRounding::nearest_even}, reinterpret_cast<std::byte*>(&value));
@@ -127,8 +154,12 @@ class Lookup {
     const double floor_lo = std::floor(lo);
     ++counters_.values;
     std::int64_t index = 0;
+    std::optional<NarrowSplit> split;
     if (!exact_only_ && floor_lo == std::floor(hi)) {
       index = static_cast<std::int64_t>(floor_lo);
+    } else if (!exact_only_ && (split = at.split(axis, size, linear ? 1 : 0))) {
+      ++counters_.narrow;
+      index = split->index;
     } else {
       ++counters_.exact_path;
       decided_ = false;
@@ -138,9 +169,25 @@ class Lookup {
     auto& texel = axis == 0 ? x_ : y_;
     texel[0] = wrapped(index, size, wrap);
     if (linear) texel[1] = wrapped(index + 1, size, wrap);
+    if (split) return set_fraction(axis, *split);
     // Products, the subtraction of ½ and of the index each round once, relative to |u·n| < 2^30: the enclosure grows by 2^-51·(|u·n| + 1).
     const double slack = 0x1p-51 * (std::abs(lo) + 1);
     fraction_[static_cast<std::size_t>(axis)] = {lo - floor_lo - slack, hi - floor_lo + slack};
+  }
+
+  void set_fraction(int axis, const NarrowSplit& split) {
+    fraction_[static_cast<std::size_t>(axis)] = {split.fraction * (1 - 0x1p-51), split.fraction * (1 + 0x1p-51)};
+  }
+
+  // Fractions from exact remainders; false where 128 bits may not hold them.
+  template <class Coordinate>
+  bool sharpen(const Coordinate& at) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const auto split = at.split(axis, axis == 0 ? image_.width() : image_.height(), 1);
+      if (!split) return false;
+      set_fraction(axis, *split);
+    }
+    return true;
   }
 
   // With fractions f ± df, g ± dg: |value error| <= 2·max|t|·(df + dg), and fewer than 16 roundings of at most max|t|·2^-53 each.

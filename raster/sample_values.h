@@ -23,9 +23,10 @@ enum class Evaluation : std::uint8_t {
 struct EvaluationCounters {
   std::uint64_t values = 0;      ///< numbers stored or decided (a texel choice counts as one per axis)
   std::uint64_t scalar = 0;      ///< of these, not decided by the vector kernels (all of them where there are none: `filtered`)
-  std::uint64_t exact_path = 0;  ///< of these, decided by wide integers
+  std::uint64_t narrow = 0;      ///< of these, decided by 128-bit integers: most true ties (narrow_split.h)
+  std::uint64_t exact_path = 0;  ///< of these, decided by wide integers: the last resort
   EvaluationCounters& operator+=(const EvaluationCounters& o) {
-    values += o.values, scalar += o.scalar, exact_path += o.exact_path;
+    values += o.values, scalar += o.scalar, narrow += o.narrow, exact_path += o.exact_path;
     return *this;
   }
 };

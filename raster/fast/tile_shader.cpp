@@ -180,7 +180,7 @@ class TileShader {
     EvaluationCounters plain;
     store_target(context_.list, *run.draw, context_.frame, target, setup_, id, tile_.x0 + run.column + lane, tile_.y0 + run.row, depth,
                  Evaluation::filtered, texel, plain);
-    counters_.exact_path += plain.exact_path;
+    counters_.narrow += plain.narrow, counters_.exact_path += plain.exact_path;
   }
 
   void clear(int column, int row, int lanes) {
