@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "core/base/error.h"
+#include "gpu/exact_probe.h"
 #include "gpu/exact_texture.h"
 #include "gpu/guard_viewport.h"
 
@@ -50,6 +51,7 @@ ExactPipeline::ExactPipeline(Context& context, const DeviceLimits& limits, bool 
     throw UnavailableError(
         fmt::format("OpenGL: the exact shader needs version 4.0, for doubles in shaders; {} gives {}.{}", context_.origin(), major, minor));
   }
+  require_operations(gl_, ieee_operations(), limits_.max_texture_size_texel);
   vertex_array_ = make_vertex_array(gl_);
   srgb_tables_ = upload_srgb_tables(gl_, limits_.max_texture_size_texel);
 }

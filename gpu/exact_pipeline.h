@@ -27,7 +27,7 @@ struct ExactCounters {
 /// Programs and the last frame's targets are kept between calls. The context must outlive it.
 class ExactPipeline {
  public:
-  /// UnavailableError: the context is older than OpenGL 4.0, which has doubles in shaders. `integers_only`: integers for
+  /// UnavailableError: the context is older than OpenGL 4.0, which has doubles in shaders, or these are not IEEE's. `integers_only`: integers for
   /// every texel, whatever doubles could decide: a second opinion.
   ExactPipeline(Context& context, const DeviceLimits& limits, bool integers_only = false);
   ~ExactPipeline();

@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/math/half.h"
 #include "gpu/exact_pipeline.h"
+#include "gpu/exact_probe.h"
 #include "raster/cpu_renderer.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/support/skip.h"
@@ -355,4 +356,16 @@ TEST_CASE("what the exact shader supports, and what it refuses in words") {
   check_identical(*gl, linear, frame_of(*gl, 16, 16, 0, {kIdTarget, {TargetContent::coordinate, kRg32f, {}}}));
   // Nothing to draw.
   check_identical(*gl, {}, frame_of(*gl, 16, 16, 0, {kIdTarget, color_target(ChannelType::half, 1), color_target(ChannelType::srgb8, 4)}));
+}
+
+TEST_CASE("a device whose doubles are not IEEE's is refused by the operation that shows it") {
+  if (exact_or_skip("exact shader: probe") == nullptr) return;
+  const std::unique_ptr<Context> context = make_context({.driver = Driver::llvmpipe});
+  CHECK_NOTHROW(require_operations(context->gl(), ieee_operations(), 4096));
+  // What a device without doubles of its own might do: a product of 24 bits.
+  const std::vector<DoubleOperation> planted{
+      {"product", "double(float(a) * float(b))", [](double a, double b) { return a * b; }},
+  };
+  CHECK_THROWS_WITH_AS(require_operations(context->gl(), planted, 4096), doctest::Contains("this device's product differs in 40"),
+                       UnavailableError);
 }
