@@ -77,6 +77,8 @@ Json document_of(const Options& options, const Job& job, const SimplifyResult& r
   document["collapses"] = result.collapse_count;
   document["error"] = result.error;
   document["error_of_diagonal"] = diagonal > 0 ? Json(result.error / diagonal) : Json(nullptr);
+  document["distance_max"] = *result.distance_max;
+  document["distance_max_of_diagonal"] = diagonal > 0 ? Json(*result.distance_max / diagonal) : Json(nullptr);
   document["max_cost"] = result.max_cost;
   document["error_state_bytes_per_vertex"] = result.state_bytes_per_vertex;
   document["kinds"] = {{"interior", result.interior_vertices}, {"curve", result.curve_vertices}, {"locked", result.locked_vertices}};
@@ -142,6 +144,7 @@ int run(const Options& options) {
   const SimplifyResult result = naming_the_model(options.model, [&] {
     simplify::SimplifyOptions how;
     how.target_faces = job.target_faces;
+    how.record_landings = true;
     how.refuse_non_manifold = options.refuse_non_manifold;
     how.legality.min_normal_cosine = options.min_cosine;
     how.progress = [&](std::size_t done, std::size_t total) {
@@ -159,6 +162,7 @@ int run(const Options& options) {
                            grouped(job.model.mesh.face_count()), grouped(result.mesh.vertex_count()),
                            grouped(job.model.mesh.vertex_count()), result.error,
                            diagonal > 0 ? fmt::format(" ({:.4g} % of the diagonal)", 100 * result.error / diagonal) : ""));
+  console.line(fmt::format("no vertex of the model is farther than {:.6g} from the result", *result.distance_max));
   console.line(refusals_line(result));
   if (result.stop == simplify::StopReason::exhausted)
     console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused", grouped(job.target_faces)));

@@ -36,6 +36,7 @@ void extract(const CollapseMesh& triangles, SimplifyResult& result) {
     if (!wedge_used[w]) continue;
     new_wedge[w] = static_cast<std::uint32_t>(mesh.wedges.size());
     mesh.wedges.push_back({VertexId(new_vertex[source.wedges[w].vertex.index]), source.wedges[w].uv});
+    result.source_wedge.push_back(WedgeId(w));
   }
   mesh.faces.reserve(triangles.face_count());
   result.source_face.reserve(triangles.face_count());

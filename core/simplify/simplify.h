@@ -47,6 +47,7 @@ struct SimplifyResult {
   /// Survivors in the order of the input: vertices, wedges, faces; corners of a face keep their order.
   Mesh mesh;
   std::vector<VertexId> source_vertex;  ///< #V of mesh: its vertex of the input
+  std::vector<WedgeId> source_wedge;    ///< #W of mesh: its wedge of the input
   std::vector<FaceId> source_face;      ///< #F of mesh: its face of the input
   StopReason stop = StopReason::faces;
   std::size_t collapse_count = 0;

@@ -1,0 +1,151 @@
+#include "core/progressive/progressive_mesh.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "core/base/error.h"
+#include "tests/simplify/sample_meshes.h"
+
+using namespace etalon;
+using namespace etalon::progressive;
+using namespace etalon::test;
+
+namespace {
+
+ProgressiveData data_of(const Mesh& mesh) { return make_progressive(mesh, {.target_faces = 0}).data; }
+
+/// The first split that has two corners on its left side.
+VertexSplit& with_corners(ProgressiveData& data) {
+  for (VertexSplit& split : data.splits)
+    if (split.right_corner >= split.first_corner + 2) return split;
+  throw std::runtime_error("no split has two corners");
+}
+
+/// What is said about the data of a seamed grid after `damage`; "" where it passes.
+template <class Damage>
+std::string message_after(const Damage& damage) {
+  ProgressiveData data = data_of(seamed_grid(4, 0.2f, 4));
+  damage(data);
+  try {
+    const ProgressiveMesh mesh(std::move(data));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("every level is a mesh, and the one that direct simplification gives, on the way up and down") {
+  for (const NamedMesh& sample : sample_meshes()) {
+    CAPTURE(sample.name);
+    const ProgressiveResult made = make_progressive(sample.mesh, {.target_faces = 0});
+    ProgressiveMesh progressive(made.data);
+    CHECK(progressive.level() == 0);
+    CHECK(progressive.mesh() == made.simplified.mesh);
+    CHECK(progressive.split_count() == made.simplified.collapse_count);
+    std::vector<Mesh> up;
+    for (std::size_t level = 0; level <= progressive.split_count(); ++level) {
+      progressive.go_to(level);
+      REQUIRE(progressive.violation() == "");
+      up.push_back(progressive.mesh());
+      if (level % 7 == 0 || level == progressive.split_count())
+        REQUIRE(up.back() == simplify::simplify_mesh(sample.mesh, {.target_faces = progressive.face_count()}).mesh);
+    }
+    CHECK(up.back().face_count() == sample.mesh.face_count());
+    for (std::size_t level = progressive.split_count() + 1; level-- > 0;) {
+      progressive.go_to(level);
+      REQUIRE(progressive.mesh() == up[level]);
+    }
+  }
+}
+
+TEST_CASE("the finest level is the input, byte for byte in canonical order") {
+  for (const NamedMesh& sample : sample_meshes()) {
+    CAPTURE(sample.name);
+    ProgressiveMesh progressive(data_of(sample.mesh));
+    progressive.go_to(progressive.split_count());
+    const Mesh canonical = simplify::simplify_mesh(sample.mesh, {.target_faces = sample.mesh.face_count()}).mesh;
+    CHECK(progressive.mesh() == canonical);
+    if (sample.name != "seamed grid") CHECK(canonical == sample.mesh);  // the seamed grid has wedges of no face
+  }
+}
+
+TEST_CASE("colours and materials come along") {
+  Mesh grid = bumpy_grid(6, 0.2f, 3);
+  for (const Vec3f& p : grid.positions) grid.colors.push_back({p.x, p.y, p.z, 1});
+  for (std::size_t f = 0; f < grid.face_count(); ++f) grid.face_materials.push_back(f % 12 < 6 ? 1 : 0);
+  ProgressiveMesh progressive(data_of(grid));
+  progressive.go_to(progressive.split_count());
+  CHECK(progressive.mesh() == grid);
+}
+
+TEST_CASE("by face count: the finest level that is not above it") {
+  const Mesh grid = bumpy_grid(8, 0.3f, 2);
+  ProgressiveMesh progressive(data_of(grid));
+  for (const std::size_t faces : {128u, 127u, 60u, 33u, 9u}) {
+    progressive.go_to_faces(faces);
+    CAPTURE(faces);
+    CHECK(progressive.face_count() <= faces);
+    CHECK(progressive.mesh() == simplify::simplify_mesh(grid, {.target_faces = faces}).mesh);
+  }
+  progressive.go_to_faces(0);
+  CHECK(progressive.level() == 0);
+  progressive.go_to_faces(100000);
+  CHECK(progressive.level() == progressive.split_count());
+  CHECK_THROWS_AS(progressive.go_to(progressive.split_count() + 1), InternalError);
+}
+
+TEST_CASE("hooks of the caller are still called; an unwelded mesh is refused") {
+  const Mesh grid = bumpy_grid(4, 0.2f, 2);
+  std::size_t calls = 0;
+  simplify::SimplifyOptions options{.target_faces = 10};
+  options.before_collapse = [&](const simplify::CollapseMesh&, const simplify::CollapseEvent&) { ++calls; };
+  CHECK(make_progressive(grid, options).simplified.collapse_count == calls);
+  Mesh unwelded = grid;
+  for (auto& face : unwelded.faces)
+    for (WedgeId& w : face) {
+      unwelded.wedges.push_back(unwelded.wedges[w.index]);
+      w = WedgeId(unwelded.wedge_count() - 1);
+    }
+  CHECK_THROWS_AS((void)make_progressive(unwelded, {.target_faces = 0}), InputError);
+}
+
+TEST_CASE("data that is no progressive mesh is refused, and says what is wrong") {
+  CHECK(message_after([](ProgressiveData&) {}) == "");
+  const auto says = [](const std::string& message, const std::string& part) {
+    CAPTURE(message);
+    CAPTURE(part);
+    CHECK(message.find(part) != std::string::npos);
+  };
+  says(message_after([](ProgressiveData& d) { d.positions.pop_back(); }), "vertices: expected");
+  says(message_after([](ProgressiveData& d) { d.vertex_ids.pop_back(); }), "vertex ids: expected");
+  says(message_after([](ProgressiveData& d) { d.has_colors = true; }), "colours: expected");
+  says(message_after([](ProgressiveData& d) { d.wedge_ids.pop_back(); }), "wedge ids: expected");
+  says(message_after([](ProgressiveData& d) { d.face_ids.pop_back(); }), "face ids: expected");
+  says(message_after([](ProgressiveData& d) { d.has_materials = true; }), "materials: expected");
+  says(message_after([](ProgressiveData& d) { d.base_faces = 0; }), "base: expected");
+  says(message_after([](ProgressiveData& d) { d.positions[3].x = std::numeric_limits<float>::infinity(); }), "vertex 3: position");
+  says(message_after([](ProgressiveData& d) { d.wedges[2].uv.y = std::numeric_limits<float>::quiet_NaN(); }), "wedge 2: uv");
+  says(message_after([](ProgressiveData& d) { d.wedges[0].vertex = VertexId(d.base_vertices); }), "wedge 0: vertex");
+  says(message_after([](ProgressiveData& d) { d.faces[0][1] = d.base_wedges; }), "face 0: wedge");
+  says(message_after([](ProgressiveData& d) { d.vertex_ids[1] = d.vertex_ids[0]; }), "expected once, got twice");
+  says(message_after([](ProgressiveData& d) { d.splits[1].parent = d.base_vertices + 1; }), "split 1: parent");
+  says(message_after([](ProgressiveData& d) { d.splits[0].first_face += 1; }), "split 0: expected to follow the base");
+  says(message_after([](ProgressiveData& d) { d.splits[2].first_face = d.splits[1].first_face; }), "split 1: faces");
+  says(message_after([](ProgressiveData& d) { d.splits[2].first_wedge = 0; }), "split 1: wedges");
+  says(message_after([](ProgressiveData& d) { d.wedges[d.splits[1].first_wedge].vertex = VertexId(d.positions.size() - 1); }),
+       "split 1: wedge");
+  says(message_after([](ProgressiveData& d) { d.faces[d.splits[0].first_face][0] = 1000000; }), "split 0: face");
+  says(message_after([](ProgressiveData& d) { d.faces[d.splits[0].first_face][0] = d.faces[d.splits[0].first_face][1]; }),
+       "three vertices");
+  says(message_after([](ProgressiveData& d) { d.splits[0].parent = d.splits[0].parent == 0 ? 1 : 0; }), "split 0: ");
+  says(message_after([](ProgressiveData& d) { d.splits[0].end_corner = 1000000; }), "split 0: corners");
+  says(message_after([](ProgressiveData& d) { d.corners[with_corners(d).first_corner] |= 3; }), "corner: expected of a face below");
+  says(message_after([](ProgressiveData& d) { with_corners(d).wedge = {kNone, kNone}; }), "wedges: expected of");
+  says(message_after([](ProgressiveData& d) { d.corners[with_corners(d).first_corner + 1] = d.corners[with_corners(d).first_corner]; }),
+       "corners: expected each once");
+  says(message_after([](ProgressiveData& d) { d.corners[with_corners(d).first_corner] ^= 3; }), "corner");
+}
