@@ -7,7 +7,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/gl_options.h"
 #include "cli/usage_error.h"
@@ -35,7 +34,7 @@ std::string joined(const std::vector<raster::SimdLevel>& levels) {
 }
 
 std::vector<raster::SimdLevel> chosen_levels(const std::string& text) {
-  const std::vector<raster::SimdLevel> available = raster::available_simd_levels();
+  std::vector<raster::SimdLevel> available = raster::available_simd_levels();
   if (text == "all") return available;
   const std::optional<raster::SimdLevel> level = raster::parse_simd_level(text);
   if (!level) throw UsageError(fmt::format("selftest: --simd: expected all or one of {}, got '{}'", joined(available), text));
@@ -153,11 +152,25 @@ int run(const Options& options) {
   console.line(result.passed() ? "selftest passed: this build draws the contract's bytes on this machine"
                                : "selftest FAILED: this build does not draw the contract's bytes on this machine");
   write_document(options.common, document_of(options, result, gl.device));
-  if (!result.passed() && options.common.quiet) print_error("selftest: failed; without --quiet it says where");
+  if (options.common.quiet && !result.passed()) print_error(first_failure(result));
   return result.passed() ? kExitDone : kExitCheckFailed;
 }
 
 }  // namespace
+
+std::string first_failure(const SelftestResult& result) {
+  for (const FloatCheck& check : result.arithmetic)
+    if (!check.passed()) return fmt::format("selftest: {}: expected {}, got {}", check.name, check.expected, check.got);
+  for (const HashRun& run : result.hashes)
+    if (run.sha256 != result.golden.all)
+      return fmt::format("selftest: {} {}, {}: expected {}, got {}: {}", to_string(run.drawing.evaluation), level_name(run.drawing),
+                         counted(static_cast<std::uint64_t>(run.drawing.threads), "thread"), result.golden.all, run.sha256, run.difference);
+  for (const JudgeRun& run : result.judged)
+    if (run.mismatches > 0)
+      return fmt::format("selftest: {} {}: {} other than the judge's, the first {}", to_string(run.drawing.evaluation),
+                         level_name(run.drawing), counted(run.mismatches, "value"), run.first_mismatch);
+  return "";
+}
 
 Verb add_selftest(CLI::App& root) {
   const auto options = std::make_shared<Options>();

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/selftest_command.h"
 #include "raster/simd_level.h"
 #include "tests/cli/run_command.h"
 #include "tests/cli/schema_validator.h"
@@ -13,7 +14,7 @@ using nlohmann::json;
 namespace {
 
 json checked_document(const std::string& text) {
-  const json document = json::parse(text);
+  json document = json::parse(text);
   const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/selftest.json"));
   for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
   return document;
@@ -87,4 +88,24 @@ TEST_CASE("selftest: refusals") {
   CHECK(run_etalon({"selftest", "--seed", "-1"}).exit_code == 64);
   CHECK(run_etalon({"selftest", "--json", "/nonexistent/folder/x.json"}).exit_code == 4);
   CHECK(run_etalon({"selftest", "stray"}).exit_code == 64);
+}
+
+TEST_CASE("selftest --quiet: what failed first, in one line") {
+  using namespace etalon::validation;
+  SelftestResult result;
+  result.golden.all = "aa";
+  result.hashes = {{.drawing = {raster::Evaluation::vectorised, raster::SimdLevel::baseline, 7}, .sha256 = "aa", .difference = {}}};
+  result.judged = {{.drawing = {raster::Evaluation::filtered, {}, 1}, .first_mismatch = {}}};
+  result.arithmetic = {{"sums are not re-associated", "0", "0"}};
+  CHECK(result.passed());
+  CHECK(cli::first_failure(result).empty());
+  result.judged[0].mismatches = 2;
+  result.judged[0].first_mismatch = "judged 3: texel (1, 2)";
+  CHECK(cli::first_failure(result) == "selftest: filtered -: 2 values other than the judge's, the first judged 3: texel (1, 2)");
+  result.hashes[0].sha256 = "bb";
+  result.hashes[0].difference = "family ties";
+  CHECK(cli::first_failure(result) == "selftest: vectorised baseline, 7 threads: expected aa, got bb: family ties");
+  result.arithmetic[0].got = "1";
+  CHECK(cli::first_failure(result) == "selftest: sums are not re-associated: expected 0, got 1");
+  CHECK_FALSE(result.passed());
 }

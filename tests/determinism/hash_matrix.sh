@@ -18,8 +18,8 @@ golden=$(head -n 1 "$source_dir/data/golden/hash_scenes.sha256" | cut -d' ' -f1)
 failed=0
 
 # What the drawings depend on.
-source_key=$(cd "$source_dir" && find CMakeLists.txt cmake core/base core/math core/image core/mesh core/draw core/procedural raster validation/selftest tests/determinism \
-  -type f -print0 | sort -z | xargs -0 sha256sum | sha256sum | cut -c1-16)
+source_key=$(cd "$source_dir" && find CMakeLists.txt cmake core/base core/math core/image core/mesh core/draw core/procedural raster validation/selftest \
+  tests/determinism -type f ! -name hash_matrix.sh -print0 | sort -z | xargs -0 sha256sum | sha256sum | cut -c1-16)
 
 rows="$work/rows.tsv"  # build, expectation (same or differs), evaluation, level, threads, hash
 : >"$rows"
@@ -28,14 +28,14 @@ slug() { printf '%s' "$1" | tr -c 'A-Za-z0-9+' _; }
 
 # draw NAME EXPECTATION PROGRAM KEY: its rows, from the last time where the key is the same; an empty key is never the same.
 draw() {
-  local name=$1 expectation=$2 drawn threads=1,2,7 list evaluation level count hash
+  local name=$1 expectation=$2 drawn threads=1,2,7 evaluation level count hash
   drawn="$work/$(slug "$name").drawn"
   [ -z "${ETALON_FULL-}" ] || threads=1,2,7,16
   [ "$name" != "g++ -O0" ] || [ -n "${ETALON_FULL-}" ] || threads=2
   if [ -z "$4" ] || [ "$(head -n 1 "$drawn" 2>/dev/null)" != "$4" ]; then
-    list=$("$3" --threads "$threads") || { echo "[etalon] failed: hash_matrix $name: exit code $?"; failed=1; return; }
-    if [ -n "${ETALON_FULL-}" ]; then list+=$'\n'$("$3" --evaluation exact --threads 2) || failed=1; fi
-    printf '%s\n%s\n' "$4" "$list" >"$drawn"
+    { echo "$4"; "$3" --threads "$threads" && { [ -z "${ETALON_FULL-}" ] || "$3" --evaluation exact --threads 2; }; } >"$drawn.part" ||
+      { echo "[etalon] failed: hash_matrix $name: drawing ended with another exit code than 0"; failed=1; return; }
+    mv "$drawn.part" "$drawn"
   fi
   while read -r evaluation level count hash; do
     printf '%s\t%s\t%s\t%s\t%s\t%s\n' "$name" "$expectation" "$evaluation" "$level" "$count" "$hash" >>"$rows"
@@ -59,7 +59,7 @@ build_and_draw() {
     # The build type is None, so that the flags are these and no others; asserts stay on.
     { cmake -S "$source_dir" -B "$dir" -G Ninja -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$compiler" \
         -DCMAKE_CXX_FLAGS="${flags% }" -DETALON_IO=OFF -DETALON_GPU=OFF -DETALON_CLI=OFF -DETALON_TESTS=ON "$@" &&
-      ninja -C "$dir" etalon_hash_scenes; } >"$dir.log" 2>&1 ||
+      ninja -C "$dir" -j "$(nproc)" etalon_hash_scenes; } >"$dir.log" 2>&1 ||
       { tail -n 20 "$dir.log"; echo "[etalon] failed: hash_matrix $name does not build"; failed=1; return; }
   fi
   draw "$name" "$expectation" "$dir/tests/determinism/etalon_hash_scenes" "$key"

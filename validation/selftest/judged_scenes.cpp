@@ -52,7 +52,10 @@ Judgement judge_scene(const FixedScene& scene) {
 }
 
 Comparison compare(const FixedScene& scene, const Judgement& expected, const std::vector<Image>& drawn) {
-  const auto texel = [&](std::size_t n, int i, int j) { return expected[n][static_cast<std::size_t>(j * scene.frame.width + i)].data(); };
+  const auto width = static_cast<std::size_t>(scene.frame.width);
+  const auto texel = [&](std::size_t n, int i, int j) {
+    return expected[n][static_cast<std::size_t>(j) * width + static_cast<std::size_t>(i)].data();
+  };
   return compare_texels(scene, texel, drawn);
 }
 
