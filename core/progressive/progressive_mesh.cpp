@@ -61,6 +61,9 @@ void ProgressiveMesh::check_base() const {
                                  d.base_faces, d.base_wedges));
   for (std::size_t v = 0; v < d.positions.size(); ++v)
     if (!finite(d.positions[v])) throw InputError(fmt::format("vertex {}: position: expected finite numbers", v));
+  for (std::size_t v = 0; v < d.colors.size(); ++v)
+    for (int k = 0; k < 4; ++k)
+      if (!std::isfinite(d.colors[v][k])) throw InputError(fmt::format("vertex {}: colour: expected finite numbers", v));
   for (std::size_t w = 0; w < d.wedges.size(); ++w) {
     if (!std::isfinite(d.wedges[w].uv.x) || !std::isfinite(d.wedges[w].uv.y))
       throw InputError(fmt::format("wedge {}: uv: expected finite numbers", w));

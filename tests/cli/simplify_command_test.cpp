@@ -1,4 +1,4 @@
-// etalon simplify and etalon metro: files, documents, exit codes.
+// etalon simplify, progressive and metro: files, documents, exit codes.
 #include <algorithm>
 
 #include <doctest/doctest.h>
@@ -105,6 +105,38 @@ TEST_CASE("simplify: refusals") {
   check_refused({"simplify", "square.obj", "--ratio", "0.5", "-o", "nowhere/a.obj"}, 4, folder, "nowhere");
   check_refused({"simplify", "broken.obj", "--ratio", "0.5", "-o", "a.obj"}, 4, folder, "broken.obj");
   check_refused({"simplify", "missing.obj", "--ratio", "0.5", "-o", "a.obj"}, 4, folder, "missing.obj");
+}
+
+TEST_CASE("progressive: a level of the file is the simplified model; a cut file is a coarser one") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "swirl", "--faces", "800", "--texture-size", "64", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code ==
+          0);
+  const CommandResult made = run_etalon({"progressive", "swirl.obj", "-o", "swirl.epm", "--json", "-"}, {.folder = folder.path()});
+  REQUIRE(made.exit_code == 0);
+  const json document = checked_document(made, "progressive.json");
+  CHECK(document["faces"] == 800);
+  CHECK(document["bytes"] == read_text(folder.path() / "swirl.epm").size());
+  const CommandResult level =
+      run_etalon({"progressive", "swirl.epm", "--faces", "300", "-o", "level.ply", "--json", "-"}, {.folder = folder.path()});
+  REQUIRE(level.exit_code == 0);
+  CHECK(checked_document(level, "progressive.json")["faces"] <= 300);
+  REQUIRE(run_etalon({"simplify", "swirl.obj", "--faces", "300", "-o", "direct.obj"}, {.folder = folder.path()}).exit_code == 0);
+  const CommandResult distance =
+      run_etalon({"metro", "level.ply", "direct.obj", "--samples", "1000", "--json", "-"}, {.folder = folder.path()});
+  CHECK(json::parse(distance.out)["max"] < 1e-12);
+
+  const std::string whole = read_text(folder.path() / "swirl.epm");
+  folder.file("cut.epm", whole.substr(0, whole.size() - 1));
+  const CommandResult cut = run_etalon({"progressive", "cut.epm", "--faces", "9999", "-o", "cut.ply"}, {.folder = folder.path()});
+  CHECK(cut.exit_code == 0);
+  CHECK(cut.out.find("is cut short") != std::string::npos);
+  folder.file("broken.epm", whole.substr(0, 30));
+  check_refused({"progressive", "broken.epm", "--faces", "3", "-o", "b.ply"}, 4, folder,
+                "broken.epm: byte 8: the file ends inside its HEAD chunk");
+  check_refused({"progressive", "swirl.epm", "-o", "b.ply"}, 64, folder, "expected --faces N");
+  check_refused({"progressive", "swirl.obj", "-o", "b.ply"}, 64, folder, "expected a model and -o FILE.epm");
+  check_refused({"progressive", "swirl.epm", "--faces", "3", "-o", "b.epm"}, 64, folder, "expected a model and -o FILE.epm");
+  check_refused({"progressive", "missing.obj", "-o", "b.epm"}, 4, folder, "missing.obj");
 }
 
 TEST_CASE("metro: the document, the same bytes for every thread count, colours where both have them") {

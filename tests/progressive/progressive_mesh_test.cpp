@@ -128,6 +128,12 @@ TEST_CASE("data that is no progressive mesh is refused, and says what is wrong")
   says(message_after([](ProgressiveData& d) { d.has_materials = true; }), "materials: expected");
   says(message_after([](ProgressiveData& d) { d.base_faces = 0; }), "base: expected");
   says(message_after([](ProgressiveData& d) { d.positions[3].x = std::numeric_limits<float>::infinity(); }), "vertex 3: position");
+  says(message_after([](ProgressiveData& d) {
+         d.has_colors = true;
+         d.colors.assign(d.positions.size(), {0, 0, 0, 1});
+         d.colors[1].z = std::numeric_limits<float>::quiet_NaN();
+       }),
+       "vertex 1: colour");
   says(message_after([](ProgressiveData& d) { d.wedges[2].uv.y = std::numeric_limits<float>::quiet_NaN(); }), "wedge 2: uv");
   says(message_after([](ProgressiveData& d) { d.wedges[0].vertex = VertexId(d.base_vertices); }), "wedge 0: vertex");
   says(message_after([](ProgressiveData& d) { d.faces[0][1] = d.base_wedges; }), "face 0: wedge");

@@ -1,0 +1,165 @@
+#include "cli/progressive_command.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "cli/attribution.h"
+#include "cli/call_files.h"
+#include "cli/exit_code.h"
+#include "cli/interrupt.h"
+#include "cli/model_input.h"
+#include "cli/usage_error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/inputs.h"
+#include "core/io/mesh_file.h"
+#include "core/mesh/weld.h"
+#include "core/progressive/epm_format.h"
+#include "validation/report/json_report.h"
+
+namespace etalon::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using validation::grouped;
+
+struct Options {
+  std::string input, output, metric = "qem";
+  std::int64_t faces = 0;
+  bool faces_given = false;
+  CommonOptions common;
+};
+
+bool is_epm(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return extension == ".epm";
+}
+
+validation::VerifyInput input_of(const std::string& path, const std::string& role) {
+  validation::VerifyInput input{.name = std::filesystem::path(path).filename().string(),
+                                .sha256 = io::file_sha256(path),
+                                .path = path,
+                                .role = role,
+                                .attribution = ""};
+  input.attribution = attribution_of(input.sha256);
+  return input;
+}
+
+void finish(const Options& options, Console& console, Json document) {
+  validation::RunInfo run = validation::current_run(options.common.start);
+  run.paths = {options.input, options.output};
+  document["run"] = validation::to_json(run);
+  write_document(options.common, document);
+  if (!options.common.json.empty() && options.common.json != "-") console.line("wrote " + options.common.json);
+}
+
+int make_file(const Options& options, Console& console, CallFiles& files) {
+  io::LoadedModel model = io::read_mesh(options.input);
+  add_side_files(files, model);
+  files.add_output(options.output, "-o");
+  files.add_output(options.common.json, "--json");
+  const Mesh mesh = welded_by_position(model.mesh);
+  const progressive::ProgressiveResult made = naming_the_model(options.input, [&] {
+    simplify::SimplifyOptions how;
+    how.target_faces = static_cast<std::size_t>(options.faces);
+    how.progress = [&](std::size_t done, std::size_t total) {
+      console.progress("faces removed", static_cast<int>(done), static_cast<int>(total));
+    };
+    return progressive::make_progressive(mesh, how);
+  });
+  const std::string bytes = progressive::encode_epm(made.data);
+  {
+    const FinishWriting writing;
+    io::write_file(options.output, bytes);
+  }
+  console.line(fmt::format("{}: from {} down to {} faces in {} splits, {} bytes", options.output, grouped(mesh.face_count()),
+                           grouped(made.data.base_faces), grouped(made.data.splits.size()), grouped(bytes.size())));
+  Json document = validation::document_head("progressive", {input_of(options.input, "model")});
+  document["metric"] = options.metric;
+  document["records"] = made.data.splits.size();
+  document["faces_base"] = made.data.base_faces;
+  document["faces"] = made.data.faces.size();
+  document["bytes"] = bytes.size();
+  document["mesh_sha256"] = nullptr;
+  finish(options, console, std::move(document));
+  return kExitDone;
+}
+
+int take_level(const Options& options, Console& console, CallFiles& files) {
+  if (!options.faces_given) throw UsageError("progressive: expected --faces N with an .epm file: the level to write");
+  if (options.output == "-") throw UsageError("progressive: a model may be several files: expected -o FILE.obj, .ply or .glb");
+  const io::FileBytes file = io::read_file(options.input);
+  progressive::EpmContent content = naming_the_model(options.input, [&] { return progressive::decode_epm(file.bytes()); });
+  content.mesh.go_to_faces(static_cast<std::size_t>(options.faces));
+  const Mesh mesh = content.mesh.mesh();
+  const std::vector<io::Material> no_names;
+  Mesh plain = mesh;
+  plain.face_materials.clear();
+  for (const std::filesystem::path& path : io::mesh_output_files(options.output, no_names)) files.add_output(path.string(), "-o");
+  files.add_output(options.common.json, "--json");
+  {
+    const FinishWriting writing;
+    io::write_mesh(options.output, plain, no_names);
+  }
+  if (!content.complete)
+    console.line(fmt::format("note: {} is cut short: {} of {} splits", options.input, grouped(content.mesh.split_count()),
+                             grouped(content.splits_in_whole)));
+  console.line(fmt::format("{}: {} and {} vertices, level {} of {}", options.output, counted(mesh.face_count(), "face"),
+                           grouped(mesh.vertex_count()), grouped(content.mesh.level()), grouped(content.mesh.split_count())));
+  Json document = validation::document_head("progressive", {input_of(options.input, "progressive mesh")});
+  document["metric"] = nullptr;
+  document["records"] = content.mesh.split_count();
+  document["faces_base"] = content.mesh.face_count_at(0);
+  document["faces"] = mesh.face_count();
+  document["bytes"] = file.bytes().size();
+  document["mesh_sha256"] = mesh_sha256(mesh);
+  finish(options, console, std::move(document));
+  return kExitDone;
+}
+
+int run(const Options& options) {
+  apply(options.common);
+  if (is_epm(options.input) == is_epm(options.output))
+    throw UsageError("progressive: expected a model and -o FILE.epm, or an .epm file and -o MODEL");
+  require_writable_file(options.output);
+  require_writable_file(options.common.json);
+  Console console(console_options(options.common));
+  CallFiles files;
+  files.add_input(options.input, "the input");
+  return is_epm(options.output) ? make_file(options, console, files) : take_level(options, console, files);
+}
+
+}  // namespace
+
+Verb add_progressive(CLI::App& root) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* app = root.add_subcommand("progressive", "Turn a model into a progressive mesh, or write one of its levels as a model");
+  app->add_option("input", options->input, "Model (.obj .ply .glb .gltf), or a progressive mesh (.epm) to take a level from")
+      ->required()
+      ->type_name("IN")
+      ->check(not_empty());
+  CLI::Option* faces = app->add_option("--faces", options->faces,
+                                       "From a model: triangles of the base (default: as few as it goes); from .epm: of the level, at most")
+                           ->type_name("N")
+                           ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 32));
+  app->add_option("--metric", options->metric, "Error metric: qem, the quadric of Garland & Heckbert")
+      ->type_name("qem")
+      ->check(CLI::IsMember({"qem"}));
+  app->add_option("-o,--output", options->output, "Progressive mesh (.epm), or the level's model (.obj .ply .glb; without materials)")
+      ->required()
+      ->type_name("OUT")
+      ->check(not_empty());
+  add_common_options(*app, options->common,
+                     "  etalon progressive scan.ply -o scan.epm\n  etalon progressive scan.epm --faces 5000 -o level.ply");
+  return {app, [options, faces] {
+            options->faces_given = faces->count() > 0;
+            return run(*options);
+          }};
+}
+
+}  // namespace etalon::cli
