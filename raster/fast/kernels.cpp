@@ -22,6 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fast/store_kernels.inc"
 #include "raster/fast/depth_kernels.inc"
 #include "raster/fast/cover_kernels.inc"
+#include "raster/fast/margin_kernels.inc"
 #undef ETALON_INLINE_STEP
 // clang-format on
 
@@ -41,6 +42,8 @@ const Kernels* kernels() {
       .to_float32 = to_float32,
       .depth = depth,
       .depth_test = depth_test,
+      .edge_distance = edge_distance,
+      .border_distance = border_distance,
       .vector_doubles = static_cast<int>(hn::Lanes(kDoubles)),
   };
   return &table;

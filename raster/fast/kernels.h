@@ -99,6 +99,10 @@ struct Kernels {
   LaneMask (*depth)(double z0, double dz, double error, int lanes, float* result);
   /// Nearer wins: writes slot and depth where candidate < depth.
   void (*depth_test)(const float* candidate, int lanes, std::uint32_t slot, float* depth, std::uint32_t* slots);
+  /// Distance to the nearest edge in sub-texels, whose edge functions start `edges` doubles into each triangle's planes.
+  LaneMask (*edge_distance)(const RunTriangles& run, int lanes, int edges, const Positions& at, FloatLanes& result);
+  /// |u·size − offset − nearest integer|.
+  LaneMask (*border_distance)(const Values& u, int lanes, int size, double offset, FloatLanes& result);
   int vector_doubles;  ///< lanes of one vector
 };
 

@@ -111,6 +111,14 @@ bool make_planes(const DrawList& list, std::uint32_t t, const Frame& frame, cons
 
   out[kAnchorColumn] = column - tile.x0, out[kAnchorRow] = row - tile.y0;
   out[kQ] = q.usable ? q.anchor : 1, out[kQ + 1] = q.usable ? q.x : 0, out[kQ + 2] = q.usable ? q.y : 0;
+  if (layout.edges() >= 0) {
+    double* edge = out + layout.edges();
+    for (int k = 0; k < 3; ++k, edge += kEdgeNumbers) {
+      const __int128 dx = edges.dx[k], dy = edges.dy[k];
+      edge[kEdgeAnchor] = e[k].anchor, edge[kEdgeX] = e[k].x, edge[kEdgeY] = e[k].y;
+      edge[kEdgeReciprocalLength] = 1 / std::sqrt(static_cast<double>(dx * dx + dy * dy));
+    }
+  }
   for (int n = 0; n < kPlaneAttributes; ++n) {
     const auto a = static_cast<PlaneAttribute>(n);
     if (!layout.has(a)) continue;

@@ -19,6 +19,12 @@ inline constexpr int kPlaneNumbers = 5;
 /// The error of a plane that has none (exact_planes.h): negative, and lost against any value it is added to.
 inline constexpr double kExactPlane = -0x1p-1000;
 
+// An edge function: at the anchor, per column, per row, exact integers where kMostEdgeBits holds; and 1 / length of the edge in sub-texels.
+inline constexpr int kEdgeAnchor = 0, kEdgeX = 1, kEdgeY = 2, kEdgeReciprocalLength = 3;
+inline constexpr int kEdgeNumbers = 4;
+/// Sub-texel bits up to which edge functions, and every partial sum of theirs in a tile, stay below 2^53: 2·2^(2·(14 + 11)) = 2^51.
+inline constexpr int kMostEdgeBits = 11;
+
 /// Attributes that a plane can carry, and the place each has among those asked for.
 enum PlaneAttribute : std::uint8_t {
   kPlaneU,
@@ -39,13 +45,18 @@ class PlaneLayout {
   void add(PlaneAttribute a) {
     if (offset_[a] < 0) offset_[a] = stride_, stride_ += kPlaneNumbers;
   }
+  /// Room for the three edge functions, kEdgeNumbers each.
+  void add_edges() {
+    if (edges_ < 0) edges_ = stride_, stride_ += 3 * kEdgeNumbers;
+  }
+  [[nodiscard]] int edges() const { return edges_; }  ///< −1: none
   [[nodiscard]] bool has(PlaneAttribute a) const { return offset_[a] >= 0; }
   [[nodiscard]] int offset(PlaneAttribute a) const { return offset_[a]; }
   [[nodiscard]] int stride() const { return stride_; }
 
  private:
   std::array<int, kPlaneAttributes> offset_{};
-  int stride_ = kFirstPlane;
+  int stride_ = kFirstPlane, edges_ = -1;
 };
 
 /// A tile's rectangle.

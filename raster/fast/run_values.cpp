@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "raster/fast/texel_lanes.h"
 
@@ -15,8 +16,15 @@ PlaneLayout plane_layout(const DrawList& list, const Frame& frame) {
   for (const TargetSpec& target : frame.targets) {
     if (target.content == TargetContent::barycentrics) add(kPlaneWeight0, 3);
     if (target.content == TargetContent::coordinate) add(kPlaneU, 2);
-    if (target.content != TargetContent::color) continue;
-    for (const Draw& draw : list.draws) draw.shading == Shading::vertex_color ? add(kPlaneRed, target.format.channels) : add(kPlaneU, 2);
+    if (target.content == TargetContent::margins) layout.add_edges();
+    if (target.content != TargetContent::color && target.content != TargetContent::margins) continue;
+    for (const Draw& draw : list.draws) {
+      if (draw.shading != Shading::vertex_color) {
+        add(kPlaneU, 2);
+      } else if (target.content == TargetContent::color) {
+        add(kPlaneRed, target.format.channels);
+      }
+    }
   }
   return layout;
 }
@@ -38,9 +46,13 @@ void RunValues::begin(const RunTriangles& triangles, int lanes, int column, int 
   triangles_ = triangles, lanes_ = lanes, column_ = column, row_ = row, has_positions_ = false, has_uv_ = false;
 }
 
-void RunValues::evaluate(PlaneAttribute a, Values& result) {
+const Positions& RunValues::positions() {
   if (!has_positions_) context_.kernels.positions(triangles_, lanes_, column_, row_, positions_), has_positions_ = true;
-  context_.kernels.attribute(triangles_, lanes_, context_.layout.offset(a), positions_, result);
+  return positions_;
+}
+
+void RunValues::evaluate(PlaneAttribute a, Values& result) {
+  context_.kernels.attribute(triangles_, lanes_, context_.layout.offset(a), positions(), result);
 }
 
 void RunValues::interpolate_uv() {
@@ -54,6 +66,24 @@ LaneMask RunValues::store_planes(PlaneAttribute first, const TargetSpec& target,
 
 LaneMask RunValues::store_coordinate(const TargetSpec& target, std::byte* texels) { return store_planes(kPlaneU, target, texels); }
 LaneMask RunValues::store_barycentrics(const TargetSpec& target, std::byte* texels) { return store_planes(kPlaneWeight0, target, texels); }
+
+LaneMask RunValues::store_margins(const Draw& draw, const FloatLanes& gap, std::byte* texels) {
+  if (context_.frame.state.subtexel_bits > kMostEdgeBits) return ~LaneMask{0};
+  LaneMask undecided = context_.kernels.edge_distance(triangles_, lanes_, context_.layout.edges(), positions(), float_[0]);
+  if (draw.shading == Shading::vertex_color) {
+    for (int axis = 0; axis < 2; ++axis) std::fill_n(float_[1 + axis].at, lanes_, std::numeric_limits<float>::infinity());
+  } else {
+    interpolate_uv();
+    const bool indexed = draw.shading == Shading::indexed;
+    const Image& image = *context_.list.images[indexed ? draw.indexing_map : draw.texture];
+    const double offset = (indexed ? draw.map_sampler : draw.sampler).filter == Filter::linear ? 0.5 : 0;
+    undecided |= context_.kernels.border_distance(uv_[0], lanes_, image.width(), offset, float_[1]);
+    undecided |= context_.kernels.border_distance(uv_[1], lanes_, image.height(), offset, float_[2]);
+  }
+  float_[3] = gap;
+  interleave<float>(float_, lanes_, 4, texels);
+  return undecided;
+}
 
 LaneMask RunValues::store_color(const Draw& draw, const TargetSpec& target, std::byte* texels) {
   if (draw.shading == Shading::vertex_color) return store_planes(kPlaneRed, target, texels);

@@ -37,8 +37,11 @@ class RunValues {
   [[nodiscard]] LaneMask store_color(const Draw& draw, const TargetSpec& target, std::byte* texels);
   [[nodiscard]] LaneMask store_coordinate(const TargetSpec& target, std::byte* texels);
   [[nodiscard]] LaneMask store_barycentrics(const TargetSpec& target, std::byte* texels);
+  /// `gap`: to the runner-up, per lane.
+  [[nodiscard]] LaneMask store_margins(const Draw& draw, const FloatLanes& gap, std::byte* texels);
 
  private:
+  const Positions& positions();
   void evaluate(PlaneAttribute a, Values& result);
   LaneMask store_planes(PlaneAttribute first, const TargetSpec& target, std::byte* texels);
   LaneMask store_values(const TargetSpec& target, std::byte* texels);

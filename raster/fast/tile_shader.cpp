@@ -144,15 +144,21 @@ class TileShader {
       case TargetContent::depth:
         std::memcpy(texels, samples_.depth + run.row * kTileSize + run.column, sizeof(float) * static_cast<std::size_t>(run.lanes));
         break;
-      case TargetContent::margins:
-      case TargetContent::bound_terms: undecided = run.lanes == kRunLanes ? ~LaneMask{0} : (LaneMask{1} << run.lanes) - 1; break;
+      case TargetContent::margins: {
+        FloatLanes gap;
+        for (int lane = 0; lane < run.lanes; ++lane) gap.at[lane] = depth_at(run, lane).gap;
+        undecided = values_.store_margins(*run.draw, gap, texels) & lanes_of(run);
+        break;
+      }
+      case TargetContent::bound_terms: undecided = lanes_of(run); break;
     }
     return undecided;
   }
 
   // Undecided texel choices may be true ties, which exact planes decide; each triangle is tried once.
   bool make_exact(const Run& run, LaneMask undecided, const TargetSpec& target) {
-    if (target.content != TargetContent::color || run.draw->shading == Shading::vertex_color) return false;
+    const bool looks_up = target.content == TargetContent::color || target.content == TargetContent::margins;
+    if (!looks_up || run.draw->shading == Shading::vertex_color) return false;
     bool some = false;
     for (; undecided != 0; undecided &= undecided - 1) {
       const std::uint32_t slot = run.slots[std::countr_zero(undecided)];
@@ -171,16 +177,25 @@ class TileShader {
   void store_alone(const Run& run, int lane, const TargetSpec& target, std::byte* texel) {
     const std::uint32_t id = ids_[run.slots[lane]];
     if (id != current_) setup_ = make_triangle_setup(context_.list, id, context_.frame), current_ = id;
-    SampleDepth depth;
-    const int at = run.row * kTileSize + run.column + lane;
-    if (needs_.depth) depth.stored = samples_.depth[at];
-    // The difference rounds to the right float32: see docs/contract.md#targets on the depth gap.
-    depth.gap = needs_.runner_up ? static_cast<float>(static_cast<double>(samples_.runner_up[at]) - samples_.depth[at])
-                                 : std::numeric_limits<float>::infinity();
+    // An affine triangle's gradients are the same at every sample.
+    const bool constant = target.content == TargetContent::bound_terms && setup_.affine;
+    if (constant && id == bound_terms_of_) return void(std::memcpy(texel, bound_terms_, sizeof bound_terms_));
     EvaluationCounters plain;
-    store_target(context_.list, *run.draw, context_.frame, target, setup_, id, tile_.x0 + run.column + lane, tile_.y0 + run.row, depth,
-                 Evaluation::filtered, texel, plain);
+    store_target(context_.list, *run.draw, context_.frame, target, setup_, id, tile_.x0 + run.column + lane, tile_.y0 + run.row,
+                 depth_at(run, lane), Evaluation::filtered, texel, plain);
     counters_.narrow += plain.narrow, counters_.exact_path += plain.exact_path;
+    if (constant) std::memcpy(bound_terms_, texel, sizeof bound_terms_), bound_terms_of_ = id;
+  }
+
+  [[nodiscard]] static LaneMask lanes_of(const Run& run) { return run.lanes == kRunLanes ? ~LaneMask{0} : (LaneMask{1} << run.lanes) - 1; }
+
+  [[nodiscard]] SampleDepth depth_at(const Run& run, int lane) const {
+    const int at = run.row * kTileSize + run.column + lane;
+    // A difference of two float32 in [0, 1] is exact in double unless their exponents differ by more than 29, where it still rounds to
+    // the same float32: then the smaller is below 2^-29 of the larger and float32 keeps 24 bits of a number just below a float32.
+    return {needs_.depth ? samples_.depth[at] : 1.0f,
+            needs_.runner_up ? static_cast<float>(static_cast<double>(samples_.runner_up[at]) - samples_.depth[at])
+                             : std::numeric_limits<float>::infinity()};
   }
 
   void clear(int column, int row, int lanes) {
@@ -205,6 +220,8 @@ class TileShader {
   OffsetLanes offset_{};
   std::uint32_t current_ = kNoTriangle;  ///< whose setup setup_ is
   TriangleSetup setup_;
+  std::uint32_t bound_terms_of_ = kNoTriangle;  ///< whose bound_terms_ are
+  std::byte bound_terms_[2 * sizeof(float)];
 };
 
 }  // namespace
