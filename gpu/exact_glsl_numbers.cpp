@@ -107,9 +107,8 @@ bool exact_edge(int i, out uint product[5]) {
   return negative != clockwise;
 }
 
-// sum(E_i · w_j · w_k · a_i) · scale / sum(E_i · w_j · w_k); bits: float32 of a_i.
-Leading exact_number(uvec3 bits, uint scale) {
-  uint n[LIMBS], d[LIMBS];
+// n · 2^result / d = sum(E_i · w_j · w_k · a_i) · scale / sum(E_i · w_j · w_k); bits: float32 of a_i.
+int exact_sums(uvec3 bits, uint scale, out uint n[LIMBS], out uint d[LIMBS]) {
   for (int i = 0; i < LIMBS; ++i) n[i] = d[i] = 0u;
   int least = least_exponent(bits);
   int least_w = least_exponent(uvec3(corner_w[0], corner_w[1], corner_w[2]));
@@ -130,6 +129,12 @@ Leading exact_number(uvec3 bits, uint scale) {
       add_shifted(n, product, shift + exponent_of(bits[i]) - least, negative != ((bits[i] >> 31) != 0u));
     }
   }
+  return least;
+}
+
+Leading exact_number(uvec3 bits, uint scale) {
+  uint n[LIMBS], d[LIMBS];
+  int least = exact_sums(bits, scale, n, d);
   Leading result = divide(n, d);
   result.e += least;
   return result;

@@ -27,6 +27,22 @@ double float_number(uint bits) {
   return packDouble2x32(uvec2(m << 29, (bits & 0x80000000u) | ((e + 896u) << 20) | (m >> 3)));
 }
 
+// The contract's view of small numbers where an image is filtered: below 2^-40 they count as 0.
+uint canonical_bits(uint bits) { return (bits & 0x7FFFFFFFu) < uint(127 - 40) << 23 ? 0u : bits; }
+
+// (-1)^negative · m · 2^e, m < 2^24.
+struct Parts { uint m; int e; bool negative; };
+
+Parts float_parts(uint bits) {
+  uint e = (bits >> 23) & 0xFFu, m = bits & 0x007FFFFFu;
+  return Parts(e == 0u ? m : m | 0x00800000u, int(max(e, 1u)) - 150, (bits >> 31) != 0u);
+}
+
+Parts half_parts(uint bits) {
+  uint e = (bits >> 10) & 0x1Fu, m = bits & 0x3FFu;
+  return Parts(e == 0u ? m : m | 0x400u, int(max(e, 1u)) - 25, (bits & 0x8000u) != 0u);
+}
+
 double half_number(uint bits) {
   uint e = (bits >> 10) & 0x1Fu, m = bits & 0x3FFu;
   if (e == 0u) {
@@ -37,10 +53,8 @@ double half_number(uint bits) {
 }
 )";
 
-const std::string_view kGlslStoreFloat32 = R"(
-uint store_scale(bool alpha) { return 1u; }
-
-bool try_store(double lo, double hi, bool alpha, out uint code) {
+const std::string_view kGlslFloat32 = R"(
+bool try_float32(double lo, double hi, out uint code) {
   code = 0u;
   if (lo == 0.0lf && hi == 0.0lf) return true;
   code = float_bits(lo);
@@ -48,9 +62,7 @@ bool try_store(double lo, double hi, bool alpha, out uint code) {
   return code == float_bits(hi) && abs(lo) >= normal && abs(hi) >= normal;
 }
 
-uint code_of(double x, bool alpha) { return float_bits(x); }
-
-uint code_of(Leading v, bool alpha) {
+uint float32_code(Leading v) {
   if (v.q == 0u) return 0u;
   int e = v.e + 31;
   int places = e >= -126 ? 8 : 8 - 126 - e;
@@ -61,6 +73,13 @@ uint code_of(Leading v, bool alpha) {
   uint magnitude = (e >= -126 ? uint(e + 126) << 23 : 0u) + m + uint(up);
   return magnitude == 0u ? 0u : (v.negative ? 0x80000000u : 0u) | magnitude;
 }
+)";
+
+const std::string_view kGlslStoreFloat32 = R"(
+uint store_scale(bool alpha) { return 1u; }
+bool try_store(double lo, double hi, bool alpha, out uint code) { return try_float32(lo, hi, code); }
+uint code_of(double x, bool alpha) { return float_bits(x); }
+uint code_of(Leading v, bool alpha) { return float32_code(v); }
 )";
 
 const std::string_view kGlslStoreHalf = R"(

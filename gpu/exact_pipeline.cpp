@@ -22,21 +22,11 @@ ValueShader value_shader(const DrawList& list, const TargetSpec& target, const D
   ValueShader shader{.content = target.content, .target = target.format};
   if (target.content != TargetContent::color) return shader;
   shader.shading = draw.shading;
+  shader.filter = draw.sampler.filter;
+  if (draw.shading == Shading::indexed) shader.map_filter = draw.map_sampler.filter;
   if (draw.shading != Shading::vertex_color) shader.image = list.images[draw.texture]->format();
   if (draw.shading == Shading::indexed) shader.map = list.images[draw.indexing_map]->format();
   return shader;
-}
-
-void require_nearest(const DrawList& list, const Frame& frame) {
-  const bool colored = std::any_of(frame.targets.begin(), frame.targets.end(),
-                                   [](const TargetSpec& target) { return target.content == TargetContent::color; });
-  if (!colored) return;
-  for (std::size_t n = 0; n < list.draws.size(); ++n) {
-    const Draw& draw = list.draws[n];
-    const bool linear = (draw.shading != Shading::vertex_color && draw.sampler.filter == Filter::linear) ||
-                        (draw.shading == Shading::indexed && draw.map_sampler.filter == Filter::linear);
-    if (linear) throw UnavailableError(fmt::format("OpenGL: draw {} is filtered linearly: the exact shader filters nearest only", n));
-  }
 }
 
 }  // namespace
@@ -102,7 +92,6 @@ void ExactPipeline::bind(int unit, gl::Uint texture) const {
 
 std::vector<Image> ExactPipeline::draw(const DrawList& list, const Frame& frame) {
   require_size(frame, limits_);
-  require_nearest(list, frame);
   counters_ = {};
   context_.make_current();
   if (!visibility_ || !visibility_->matches(frame)) {

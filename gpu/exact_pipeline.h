@@ -1,8 +1,8 @@
 // Draws a list with the contract evaluated in shaders: identical bytes wherever the device's coverage is the contract's
 // (docs/exact-shader.md). Visibility first, with exact depth; then the stored bits of each target by doubles with a proven bound,
 // which flag the texels that they cannot decide; then these, as a dense list, by integers.
-// Does: colour (vertex colours, texture, indexed), id, barycentrics, coordinate, depth; all formats; both roundings of halves.
-// Does not: linear filtering, margins, bound terms.
+// Does: colour (vertex colours, texture, indexed; nearest and linear), id, barycentrics, coordinate, depth; all formats; both roundings of
+// halves. Does not: margins, bound terms.
 #pragma once
 
 #include <map>
@@ -34,8 +34,8 @@ class ExactPipeline {
   ExactPipeline(const ExactPipeline&) = delete;
   ExactPipeline& operator=(const ExactPipeline&) = delete;
 
-  /// As Renderer::render for a valid list and at most kExactSubtexelBits; UnavailableError where a colour target meets a draw that is
-  /// filtered linearly, where the device's limits or memory are exceeded or it reports any error.
+  /// As Renderer::render for a valid list and at most kExactSubtexelBits; UnavailableError where the device's limits or memory are exceeded
+  /// or it reports any error.
   [[nodiscard]] std::vector<Image> draw(const DrawList& list, const Frame& frame);
 
   [[nodiscard]] const ExactCounters& counters() const { return counters_; }

@@ -32,9 +32,11 @@ inline constexpr int kExactSubtexelBits = 8;
 struct ValueShader {
   TargetContent content = TargetContent::color;
   PixelFormat target{};
-  Shading shading = Shading::vertex_color;  ///< of colour targets, as the two that follow
+  Shading shading = Shading::vertex_color;  ///< of colour targets, as all that follows
   PixelFormat image{};
+  Filter filter = Filter::nearest;
   PixelFormat map{};
+  Filter map_filter = Filter::nearest;
 };
 
 /// `integers_only`: depths by integers too, whatever doubles say, and every texel flagged: a second opinion for tests.

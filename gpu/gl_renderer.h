@@ -21,7 +21,7 @@ namespace etalon::gpu {
 /// Where values come from: interpolated by the device, or the contract evaluated in the shader (docs/exact-shader.md).
 enum class ShaderMode : std::uint8_t {
   native,  ///< what an application would write
-  exact,   ///< identical bytes wherever coverage is; OpenGL 4.0; nearest filtering
+  exact,   ///< identical bytes wherever coverage is; OpenGL 4.0
 };
 [[nodiscard]] std::string to_string(ShaderMode mode);
 

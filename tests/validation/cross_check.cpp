@@ -18,7 +18,7 @@ CrossCheckTotals cross_check(Renderer& golden, Renderer& candidate, const valida
   while (totals.total.total() < options.texels) {
     const std::uint64_t seed = totals.next_seed++;
     const RandomScene scene =
-        options.exact ? make_exact_scene(seed, state, options.largest) : make_random_scene(seed, state, options.largest);
+        options.exact ? make_exact_scene(seed, state, options.largest, options.nearest) : make_random_scene(seed, state, options.largest);
     const std::vector<Image> a = golden.render(scene.list, scene.frame), b = candidate.render(scene.list, scene.frame);
     const DiffResult diff = validation::diff_images(scene.list, scene.frame, device, a, b, {.worst_count = 3, .keep_class_image = false});
     totals.by_kind[static_cast<std::size_t>(scene.kind)] += diff.counts;

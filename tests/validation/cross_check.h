@@ -27,6 +27,7 @@ struct CrossCheckOptions {
   std::uint64_t texels = 20'000'000;                      ///< stops at the first seed after which so many were compared
   int largest = 512;                                      ///< texels a side
   bool exact = false;                                     ///< scenes for a renderer that keeps the contract: make_exact_scene()
+  bool nearest = false;                                   ///< with `exact`: no linear filtering
   std::function<void(const CrossCheckTotals&)> progress;  ///< after each seed
 };
 

@@ -1,4 +1,4 @@
-// etalon_crosscheck [--shader exact] [TEXELS [FIRST_SEED [LARGEST]]]: the CPU renderer against OpenGL on random scenes, until TEXELS texels
+// etalon_crosscheck [--shader exact [--nearest]] [TEXELS [FIRST_SEED [LARGEST]]]: the CPU renderer against OpenGL on random scenes, until TEXELS texels
 // are compared; with the exact shader every byte that differs is unexplained.
 // A long run is resumed with the seed the last table ends before. Exit 0: nothing unexplained; 2: something is; 1: no OpenGL here.
 #include <cstdio>
@@ -17,6 +17,11 @@ int main(int argc, char** argv) {
     options.exact = std::string_view(argv[2]) == "exact";
     argc -= 2;
     argv += 2;
+  }
+  if (argc > 1 && std::string_view(argv[1]) == "--nearest") {
+    options.nearest = true;
+    --argc;
+    ++argv;
   }
   if (argc > 1) options.texels = std::strtoull(argv[1], nullptr, 10);
   if (argc > 2) options.first_seed = std::strtoull(argv[2], nullptr, 10);

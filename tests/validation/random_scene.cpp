@@ -294,13 +294,15 @@ RandomScene make_random_scene(std::uint64_t seed, const RasterState& device_stat
   return scene;
 }
 
-RandomScene make_exact_scene(std::uint64_t seed, const RasterState& device_state, int largest) {
+RandomScene make_exact_scene(std::uint64_t seed, const RasterState& device_state, int largest, bool nearest) {
   Rng rng(seed * 0xBF58476D1CE4E5B9ull + 7);
   RasterState state = device_state;
   state.half_rounding = rng.coin() ? HalfRounding::nearest_even : HalfRounding::toward_zero;
   if (rng.coin()) state.subtexel_bits = static_cast<int>(rng.between(1, device_state.subtexel_bits));
   RandomScene scene = make_random_scene(seed, state, largest);
-  for (Draw& draw : scene.list.draws) draw.sampler.filter = draw.map_sampler.filter = Filter::nearest;
+  for (Draw& draw : scene.list.draws) {
+    if (nearest) draw.sampler.filter = draw.map_sampler.filter = Filter::nearest;
+  }
   for (TargetSpec& target : scene.frame.targets) {
     if (target.format.type == ChannelType::unorm8 && rng.coin()) target.format.type = ChannelType::srgb8;
   }

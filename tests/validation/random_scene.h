@@ -35,7 +35,7 @@ struct RandomScene {
 [[nodiscard]] RandomScene make_random_scene(std::uint64_t seed, const RasterState& device_state, int largest = 512);
 
 /// The same for a renderer that keeps the contract to the last bit: half rounding, sub-texel bits (1 up to the state's), sRGB images and
-/// targets vary with the seed too; everything is filtered nearest.
-[[nodiscard]] RandomScene make_exact_scene(std::uint64_t seed, const RasterState& device_state, int largest = 512);
+/// targets vary with the seed too. `nearest`: nothing is filtered linearly.
+[[nodiscard]] RandomScene make_exact_scene(std::uint64_t seed, const RasterState& device_state, int largest = 512, bool nearest = false);
 
 }  // namespace etalon::test
