@@ -19,6 +19,7 @@
 #include "core/io/inputs.h"
 #include "core/io/mesh_file.h"
 #include "core/mesh/mesh_validation.h"
+#include "core/progressive/epm_format.h"
 #include "validation/report/json_report.h"
 
 namespace etalon::cli {
@@ -149,6 +150,36 @@ Finding examine_exr(const std::string& path) {
   return finding;
 }
 
+Finding examine_progressive(const std::string& path) {
+  const io::FileBytes file = io::read_file(path);
+  const progressive::EpmContent content = naming_the_model(path, [&] { return progressive::decode_epm(file.bytes()); });
+  const progressive::ProgressiveData& data = content.mesh.data();
+  const std::size_t splits = content.mesh.split_count();
+  Finding finding;
+  finding.lines.push_back(fmt::format("progressive mesh: {} to {} faces, {} to {} vertices in {} splits",
+                                      grouped(content.mesh.face_count_at(0)), grouped(content.mesh.face_count_at(splits)),
+                                      grouped(data.base_vertices), grouped(data.positions.size()), grouped(splits)));
+  finding.lines.push_back(fmt::format("texture coordinates: {}; colours: {}; materials: {}", data.has_uv ? "yes" : "no",
+                                      data.has_colors ? "yes" : "no", data.has_materials ? "yes" : "no"));
+  if (!content.complete)
+    finding.lines.push_back(fmt::format("cut short: {} of {} splits are there", grouped(splits), grouped(content.splits_in_whole)));
+  finding.members["kind"] = "progressive";
+  finding.members["progressive"] = {{"version", progressive::kEpmVersion},
+                                    {"complete", content.complete},
+                                    {"records", splits},
+                                    {"records_in_whole", content.splits_in_whole},
+                                    {"faces_base", content.mesh.face_count_at(0)},
+                                    {"faces", content.mesh.face_count_at(splits)},
+                                    {"vertices_base", data.base_vertices},
+                                    {"vertices", data.positions.size()},
+                                    {"wedges", data.wedges.size()},
+                                    {"texture_coordinates", data.has_uv},
+                                    {"vertex_colors", data.has_colors},
+                                    {"materials", data.has_materials},
+                                    {"bytes", file.bytes().size()}};
+  return finding;
+}
+
 Finding examine(const std::string& path, CallFiles& files) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
@@ -156,9 +187,10 @@ Finding examine(const std::string& path, CallFiles& files) {
     return std::any_of(list.begin(), list.end(), [&](const char* e) { return extension == e; });
   };
   if (is_one_of({".obj", ".ply", ".glb", ".gltf"})) return examine_mesh(path, files);
+  if (extension == ".epm") return examine_progressive(path);
   if (extension == ".exr") return examine_exr(path);
   if (is_one_of({".png", ".jpg", ".jpeg", ".tif", ".tiff"})) return examine_image(path);
-  throw InputError(fmt::format("{}: expected .obj .ply .glb .gltf .png .jpg .tif or .exr, got '{}'", path, extension));
+  throw InputError(fmt::format("{}: expected .obj .ply .glb .gltf .epm .png .jpg .tif or .exr, got '{}'", path, extension));
 }
 
 int run(const Options& options) {
@@ -191,7 +223,9 @@ int run(const Options& options) {
 Verb add_info(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("info", "Say what a mesh or image file holds, and what is wrong with it");
-  app->add_option("file", options->path, "Mesh (.obj .ply .glb .gltf) or image (.png .jpg .tif .exr)")->required()->type_name("FILE");
+  app->add_option("file", options->path, "Mesh (.obj .ply .glb .gltf), progressive mesh (.epm) or image (.png .jpg .tif .exr)")
+      ->required()
+      ->type_name("FILE");
   add_common_options(*app, options->common, "  etalon info head.glb --json -");
   return {app, [options] { return run(*options); }};
 }

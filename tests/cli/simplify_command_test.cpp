@@ -125,6 +125,13 @@ TEST_CASE("progressive: a level of the file is the simplified model; a cut file 
       run_etalon({"metro", "level.ply", "direct.obj", "--samples", "1000", "--json", "-"}, {.folder = folder.path()});
   CHECK(json::parse(distance.out)["max"] < 1e-12);
 
+  const CommandResult info = run_etalon({"info", "swirl.epm", "--json", "-"}, {.folder = folder.path()});
+  const json found = checked_document(info, "info.json");
+  CHECK(found["kind"] == "progressive");
+  CHECK(found["progressive"]["complete"] == true);
+  CHECK(found["progressive"]["faces"] == 800);
+  CHECK(found["progressive"]["records"] == document["records"]);
+
   const std::string whole = read_text(folder.path() / "swirl.epm");
   folder.file("cut.epm", whole.substr(0, whole.size() - 1));
   const CommandResult cut = run_etalon({"progressive", "cut.epm", "--faces", "9999", "-o", "cut.ply"}, {.folder = folder.path()});
@@ -133,6 +140,8 @@ TEST_CASE("progressive: a level of the file is the simplified model; a cut file 
   folder.file("broken.epm", whole.substr(0, 30));
   check_refused({"progressive", "broken.epm", "--faces", "3", "-o", "b.ply"}, 4, folder,
                 "broken.epm: byte 8: the file ends inside its HEAD chunk");
+  check_refused({"info", "broken.epm"}, 4, folder, "broken.epm: byte 8");
+  CHECK(run_etalon({"info", "cut.epm"}, {.folder = folder.path()}).out.find("cut short") != std::string::npos);
   check_refused({"progressive", "swirl.epm", "-o", "b.ply"}, 64, folder, "expected --faces N");
   check_refused({"progressive", "swirl.obj", "-o", "b.ply"}, 64, folder, "expected a model and -o FILE.epm");
   check_refused({"progressive", "swirl.epm", "--faces", "3", "-o", "b.epm"}, 64, folder, "expected a model and -o FILE.epm");
