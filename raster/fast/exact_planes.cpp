@@ -46,7 +46,7 @@ bool fits_double(DyadicPlane& plane, int columns, int rows) {
 
 }  // namespace
 
-bool make_uv_planes_exact(const DrawList& list, std::uint32_t t, const Frame& frame, const PlaneTile& tile, const PlaneLayout& layout,
+bool make_uv_planes_exact(const DrawList& list, std::uint32_t t, const Frame& frame, const Tile& tile, const PlaneLayout& layout,
                           double* planes) {
   const TriangleSetup setup = make_triangle_setup(list, t, frame);
   if (!setup.affine || !layout.has(kPlaneU)) return false;

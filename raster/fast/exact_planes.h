@@ -9,7 +9,7 @@ namespace etalon::raster::fast {
 
 /// Makes the planes of u and v exact where their numbers allow it: then value, and value times any image size, have no rounding at any
 /// sample of the tile, fused or not, and the plane's error is negative, of no size. Returns whether some plane became exact.
-bool make_uv_planes_exact(const DrawList& list, std::uint32_t t, const Frame& frame, const PlaneTile& tile, const PlaneLayout& layout,
+bool make_uv_planes_exact(const DrawList& list, std::uint32_t t, const Frame& frame, const Tile& tile, const PlaneLayout& layout,
                           double* planes);
 
 }  // namespace etalon::raster::fast

@@ -23,7 +23,7 @@ struct alignas(64) FloatLanes {
   float at[kRunLanes];
 };
 struct alignas(64) IntLanes {
-  std::int32_t at[kRunLanes];
+  std::int32_t at[kRunLanes + 8];  ///< a vector may begin at any lane
 };
 struct alignas(64) OffsetLanes {
   std::int64_t at[kRunLanes];

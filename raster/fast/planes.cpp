@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "raster/edges.h"
+#include "core/base/error.h"
+#include "raster/fast/tile_edges.h"
 
 namespace etalon::raster::fast {
 namespace {
@@ -95,21 +96,18 @@ double canonical_attribute(const RasterVertex& v, PlaneAttribute a) {
 
 }  // namespace
 
-bool make_planes(const DrawList& list, std::uint32_t t, const Frame& frame, const PlaneTile& tile, const PlaneLayout& layout, double* out) {
+bool make_planes(const DrawList& list, std::uint32_t t, const Frame& frame, const Tile& tile, const PlaneLayout& layout, double* out) {
   const auto& corner = list.triangles[t];
   const std::array<const RasterVertex*, 3> v = {&list.vertices[corner[0]], &list.vertices[corner[1]], &list.vertices[corner[2]]};
-  const Edges edges = make_edges(*v[0], *v[1], *v[2], frame);
-  const int column = std::max(edges.i_min, tile.x0), row = std::max(edges.j_min, tile.y0);
-  const Reach reach = {static_cast<double>(std::min(edges.i_max, tile.x0 + tile.width - 1) - column),
-                       static_cast<double>(std::min(edges.j_max, tile.y0 + tile.height - 1) - row)};
-  const EdgeValues at_anchor = edges.at(column, row);
+  TileEdges edges;
+  ETALON_CHECK(edges.set(*v[0], *v[1], *v[2], frame.state, tile), "a visible triangle draws nothing");
+  const Reach reach = {static_cast<double>(edges.column1 - edges.column0), static_cast<double>(edges.row1 - edges.row0)};
   std::array<EdgePlane, 3> e;
-  for (int k = 0; k < 3; ++k)
-    e[k] = {static_cast<double>(at_anchor[k]), static_cast<double>(-(edges.dy[k] << edges.subtexel_bits)),
-            static_cast<double>(edges.dx[k] << edges.subtexel_bits)};
+  for (std::size_t k = 0; k < 3; ++k)
+    e[k] = {static_cast<double>(edges.value[k]), static_cast<double>(edges.step_x[k]), static_cast<double>(edges.step_y[k])};
   const Denominator q = denominator(e, reach, static_cast<double>(edges.area2), {v[0]->w, v[1]->w, v[2]->w});
 
-  out[kAnchorColumn] = column - tile.x0, out[kAnchorRow] = row - tile.y0;
+  out[kAnchorColumn] = edges.column0, out[kAnchorRow] = edges.row0;
   out[kQ] = q.usable ? q.anchor : 1, out[kQ + 1] = q.usable ? q.x : 0, out[kQ + 2] = q.usable ? q.y : 0;
   if (layout.edges() >= 0) {
     double* edge = out + layout.edges();

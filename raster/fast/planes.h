@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/draw/draw_list.h"
+#include "raster/visibility.h"
 
 namespace etalon::raster::fast {
 
@@ -59,12 +60,7 @@ class PlaneLayout {
   int stride_ = kFirstPlane, edges_ = -1;
 };
 
-/// A tile's rectangle.
-struct PlaneTile {
-  int x0, y0, width, height;
-};
-
 /// Writes layout.stride() numbers. `t` must have covered samples in the tile. Returns whether some Q is not 1.
-bool make_planes(const DrawList& list, std::uint32_t t, const Frame& frame, const PlaneTile& tile, const PlaneLayout& layout, double* out);
+bool make_planes(const DrawList& list, std::uint32_t t, const Frame& frame, const Tile& tile, const PlaneLayout& layout, double* out);
 
 }  // namespace etalon::raster::fast

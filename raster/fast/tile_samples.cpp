@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "raster/edges.h"
+#include "raster/fast/tile_edges.h"
 #include "raster/triangle_setup.h"
 
 namespace etalon::raster::fast {
@@ -18,11 +18,6 @@ constexpr int kNarrow = 2;
 constexpr int kSmall = 8;
 // Depths of at most so many texels are not worth a call.
 constexpr int kShort = 4;
-
-// An edge function over the tile's texels, biased so that "inside" is >= 0: value at the tile's first sample, change per column and row.
-struct BiasedEdge {
-  std::int64_t origin, x, y;
-};
 
 // The texels of [first, last] where value + x·column >= 0, by one product and an exact correction.
 void clip_span(std::int64_t value, std::int64_t x, double reciprocal, int& first, int& last) {
@@ -47,25 +42,25 @@ void clip_span(std::int64_t value, std::int64_t x, double reciprocal, int& first
 // Window depth over one triangle's texels of the tile, as a plane with a bound; the exact number where that cannot decide.
 class DepthPlane {
  public:
-  DepthPlane(const RasterVertex* const v[3], const Edges& edges, int column, int row, int columns, int rows)
-      : vertices_{v[0], v[1], v[2]}, edges_(edges), column_(column), row_(row) {
+  DepthPlane(const RasterVertex* const v[3], const TileEdges& edges) : vertices_{v[0], v[1], v[2]}, edges_(edges) {
     const double z0 = canonical(v[0]->z), d1 = canonical(v[1]->z) - z0, d2 = canonical(v[2]->z) - z0;
     anchor_ = z0;
     if (d1 == 0 && d2 == 0) return;
-    const EdgeValues e = edges.at(column, row);
     const double reciprocal = 1 / static_cast<double>(edges.area2);
     const double s1 = d1 * reciprocal, s2 = d2 * reciprocal;
-    const double a1 = static_cast<double>(e[1]) * s1, a2 = static_cast<double>(e[2]) * s2;
-    const auto step = [&](std::int64_t along) { return static_cast<double>(along << edges.subtexel_bits); };
-    const double x1 = step(-edges.dy[1]) * s1, x2 = step(-edges.dy[2]) * s2, y1 = step(edges.dx[1]) * s1, y2 = step(edges.dx[2]) * s2;
-    anchor_ += a1 + a2, x_ = x1 + x2, y_ = y1 + y2;
+    const auto part = [&](const std::array<std::int64_t, 3>& e) {
+      return std::array<double, 2>{static_cast<double>(e[1]) * s1, static_cast<double>(e[2]) * s2};
+    };
+    const auto at = part(edges.value), x = part(edges.step_x), y = part(edges.step_y);
+    anchor_ += at[0] + at[1], x_ = x[0] + x[1], y_ = y[0] + y[1];
     // As the affine bound in planes.cpp: 12·2^-53 of the magnitudes and 4·2^-53 of the sum, doubled.
-    error_ = 0x1p-48 * (z0 + std::abs(a1) + std::abs(a2) + columns * (std::abs(x1) + std::abs(x2)) + rows * (std::abs(y1) + std::abs(y2)));
+    error_ = 0x1p-48 * (z0 + std::abs(at[0]) + std::abs(at[1]) + (edges.column1 - edges.column0) * (std::abs(x[0]) + std::abs(x[1])) +
+                        (edges.row1 - edges.row0) * (std::abs(y[0]) + std::abs(y[1])));
   }
 
-  /// Stored depths of `lanes` texels from (column, row) of the frame on.
+  /// Stored depths of `lanes` texels from (column, row) on, counted from the edges' first sample.
   void span(int column, int row, int lanes, const Kernels& kernels, float* result, EvaluationCounters& counters) const {
-    const double z = anchor_ + y_ * (row - row_) + x_ * (column - column_);
+    const double z = anchor_ + y_ * row + x_ * column;
     counters.values += static_cast<std::uint64_t>(lanes);
     if (lanes > kShort) {
       for (LaneMask open = kernels.depth(z, x_, error_, lanes, result); open != 0; open &= open - 1)
@@ -82,11 +77,12 @@ class DepthPlane {
  private:
   [[nodiscard]] float exact(int column, int row, EvaluationCounters& counters) const {
     ++counters.scalar;
-    return stored_depth(edges_.at(column, row), edges_.area2, exact_triple(vertices_[0]->z, vertices_[1]->z, vertices_[2]->z));
+    EdgeValues e;
+    for (std::size_t k = 0; k < 3; ++k) e[k] = edges_.value[k] + column * edges_.step_x[k] + row * edges_.step_y[k];
+    return stored_depth(e, edges_.area2, exact_triple(vertices_[0]->z, vertices_[1]->z, vertices_[2]->z));
   }
   const RasterVertex* vertices_[3];
-  const Edges& edges_;
-  int column_, row_;
+  const TileEdges& edges_;
   double anchor_ = 0, x_ = 0, y_ = 0, error_ = 0;
 };
 
@@ -99,45 +95,39 @@ class SampleFinder {
   void draw(std::uint32_t id, std::uint32_t slot) {
     const auto& corner = list_.triangles[id];
     const RasterVertex* const v[3] = {&list_.vertices[corner[0]], &list_.vertices[corner[1]], &list_.vertices[corner[2]]};
-    const Edges edges = make_edges(*v[0], *v[1], *v[2], frame_);
-    if (edges.area2 == 0) return;
-    const int column0 = std::max(edges.i_min - tile_.x0, 0), column1 = std::min(edges.i_max - tile_.x0, tile_.width - 1);
-    const int row0 = std::max(edges.j_min - tile_.y0, 0), row1 = std::min(edges.j_max - tile_.y0, tile_.height - 1);
-    if (column0 > column1 || row0 > row1) return;
-
-    BiasedEdge e[3];
-    const EdgeValues origin = edges.at(tile_.x0, tile_.y0);
-    for (int k = 0; k < 3; ++k)
-      e[k] = {origin[k] - (edges.owns[k] ? 0 : 1), -(edges.dy[k] << edges.subtexel_bits), edges.dx[k] << edges.subtexel_bits};
+    TileEdges edges;
+    if (!edges.set(*v[0], *v[1], *v[2], frame_.state, tile_)) return;
     std::optional<DepthPlane> plane;  // made for the first span that is not empty
     const auto write = [&](int first, int last, int row) {
-      if (needs_.depth && !plane) plane.emplace(v, edges, tile_.x0 + column0, tile_.y0 + row0, column1 - column0, row1 - row0);
-      write_span(first, last, row, slot, plane ? &*plane : nullptr);
+      if (needs_.depth && !plane) plane.emplace(v, edges);
+      write_span(edges, first, last, row, slot, plane ? &*plane : nullptr);
     };
-    const int columns = column1 - column0 + 1;
-    if (columns <= kNarrow) {
-      for (int row = row0; row <= row1; ++row) {
-        int first = column0, last = column1;
-        narrow_span(e, row, first, last);
+    // Biased, "inside" is >= 0; columns and rows count from the edges' first sample.
+    for (std::size_t k = 0; k < 3; ++k) biased_[k] = edges.value[k] - (edges.owns[k] ? 0 : 1);
+    const int last_column = edges.column1 - edges.column0, last_row = edges.row1 - edges.row0;
+    if (last_column < kNarrow) {
+      for (int row = 0; row <= last_row; ++row) {
+        int first = 0, last = last_column;
+        narrow_span(edges, row, first, last);
         if (first <= last) write(first, last, row);
       }
-    } else if (columns <= kSmall && is_small(edges)) {
+    } else if (last_column < kSmall && is_small(edges)) {
       SmallTriangle small;
-      for (int k = 0; k < 3; ++k)
-        small.value[k] = static_cast<std::int32_t>(e[k].origin + column0 * e[k].x + row0 * e[k].y),
-        small.x[k] = static_cast<std::int32_t>(e[k].x), small.y[k] = static_cast<std::int32_t>(e[k].y);
+      for (std::size_t k = 0; k < 3; ++k)
+        small.value[k] = static_cast<std::int32_t>(biased_[k]), small.x[k] = static_cast<std::int32_t>(edges.step_x[k]),
+        small.y[k] = static_cast<std::int32_t>(edges.step_y[k]);
       std::uint8_t rows[kTileSize];
-      kernels_.cover_small(small, row1 - row0 + 1, rows);
-      for (int row = row0; row <= row1; ++row) {
-        const unsigned inside = rows[row - row0] & ((1u << columns) - 1);  // one span: a triangle is convex
-        if (inside != 0) write(column0 + std::countr_zero(inside), column0 + std::bit_width(inside) - 1, row);
+      kernels_.cover_small(small, last_row + 1, rows);
+      for (int row = 0; row <= last_row; ++row) {
+        const unsigned inside = rows[row] & ((2u << last_column) - 1);  // one span: a triangle is convex
+        if (inside != 0) write(std::countr_zero(inside), static_cast<int>(std::bit_width(inside)) - 1, row);
       }
     } else {
       double reciprocal[3];
-      for (int k = 0; k < 3; ++k) reciprocal[k] = 1 / static_cast<double>(e[k].x);  // unused where infinite
-      for (int row = row0; row <= row1; ++row) {
-        int first = column0, last = column1;
-        for (int k = 0; k < 3; ++k) clip_span(e[k].origin + row * e[k].y, e[k].x, reciprocal[k], first, last);
+      for (std::size_t k = 0; k < 3; ++k) reciprocal[k] = 1 / static_cast<double>(edges.step_x[k]);  // unused where infinite
+      for (int row = 0; row <= last_row; ++row) {
+        int first = 0, last = last_column;
+        for (std::size_t k = 0; k < 3; ++k) clip_span(biased_[k] + row * edges.step_y[k], edges.step_x[k], reciprocal[k], first, last);
         if (first <= last) write(first, last, row);
       }
     }
@@ -146,27 +136,28 @@ class SampleFinder {
  private:
   // With |dx|, |dy| <= 2^14 and texels of at most 2^11 sub-texels, an edge function over its triangle's box and 8 columns more is below
   // 2·2^28 + 2^14·2^14 < 2^30.
-  static bool is_small(const Edges& edges) {
+  static bool is_small(const TileEdges& edges) {
     std::int64_t most = 0;
-    for (int k = 0; k < 3; ++k) most = std::max({most, std::abs(edges.dx[k]), std::abs(edges.dy[k])});
-    return most <= 1 << 14 && edges.subtexel_bits <= 11;
+    for (std::size_t k = 0; k < 3; ++k)
+      most = std::max({most, std::abs(edges.dx[k]), std::abs(edges.dy[k]), std::abs(edges.step_x[k]) >> 11});
+    return most <= 1 << 14;
   }
 
-  static void narrow_span(const BiasedEdge e[3], int row, int& first, int& last) {
-    const std::int64_t at[3] = {e[0].origin + row * e[0].y, e[1].origin + row * e[1].y, e[2].origin + row * e[2].y};
+  void narrow_span(const TileEdges& edges, int row, int& first, int& last) const {
+    const std::int64_t at[3] = {biased_[0] + row * edges.step_y[0], biased_[1] + row * edges.step_y[1], biased_[2] + row * edges.step_y[2]};
     const auto inside = [&](int column) {
-      return ((at[0] + column * e[0].x) | (at[1] + column * e[1].x) | (at[2] + column * e[2].x)) >= 0;
+      return ((at[0] + column * edges.step_x[0]) | (at[1] + column * edges.step_x[1]) | (at[2] + column * edges.step_x[2])) >= 0;
     };
     while (first <= last && !inside(first)) ++first;
     while (last > first && !inside(last)) --last;
   }
 
-  void write_span(int first, int last, int row, std::uint32_t slot, const DepthPlane* plane) {
+  void write_span(const TileEdges& edges, int first, int last, int row, std::uint32_t slot, const DepthPlane* plane) {
     const int lanes = last - first + 1;
-    const int at = row * kTileSize + first;
+    const int at = (edges.row0 + row) * kTileSize + edges.column0 + first;
     if (plane == nullptr) return void(std::fill_n(samples_.slot + at, lanes, slot));
     const float* const candidate = candidate_;
-    plane->span(tile_.x0 + first, tile_.y0 + row, lanes, kernels_, candidate_, counters_);
+    plane->span(first, row, lanes, kernels_, candidate_, counters_);
     if (!frame_.state.depth_test) {
       std::fill_n(samples_.slot + at, lanes, slot);
       std::copy_n(candidate, lanes, samples_.depth + at);
@@ -197,6 +188,7 @@ class SampleFinder {
   const Kernels& kernels_;
   TileSamples& samples_;
   EvaluationCounters& counters_;
+  std::array<std::int64_t, 3> biased_{};
   alignas(64) float candidate_[kTileSize];
 };
 

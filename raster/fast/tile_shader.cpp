@@ -71,8 +71,7 @@ class TileShader {
     if (draw == nullptr || id - draw->first_triangle >= draw->triangle_count) draw = &context_.list.draw_of(id);
     const std::size_t at = planes_.size();
     planes_.resize(at + static_cast<std::size_t>(context_.layout.stride()));
-    const bool perspective = make_planes(context_.list, id, context_.frame, {tile_.x0, tile_.y0, tile_.width, tile_.height},
-                                         context_.layout, planes_.data() + at);
+    const bool perspective = make_planes(context_.list, id, context_.frame, tile_, context_.layout, planes_.data() + at);
     visible_.push_back({draw, perspective});
     return index = static_cast<std::uint32_t>(visible_.size() - 1);
   }
@@ -167,8 +166,7 @@ class TileShader {
       triangle.exact_tried = true;
       double* const planes =
           planes_.data() + static_cast<std::size_t>(index_of_[slot]) * static_cast<std::size_t>(context_.layout.stride());
-      some |= make_uv_planes_exact(context_.list, ids_[slot], context_.frame, {tile_.x0, tile_.y0, tile_.width, tile_.height},
-                                   context_.layout, planes);
+      some |= make_uv_planes_exact(context_.list, ids_[slot], context_.frame, tile_, context_.layout, planes);
     }
     if (some) values_.begin({planes_.data(), &offset_, run.uniform, run.perspective}, run.lanes, run.column, run.row);
     return some;
