@@ -49,6 +49,8 @@ class TileShader {
     }
     find_samples(context_.list, context_.frame, tile_, ids_.data(), ids_.size(), needs_, context_.kernels, samples_, counters_);
     index_of_.assign(ids_.size(), kNotVisible);
+    const std::size_t likely = std::min<std::size_t>(ids_.size(), kTileSize * kTileSize / 8);
+    visible_.reserve(likely), planes_.reserve(likely * static_cast<std::size_t>(context_.layout.stride()));
     for (int row = 0; row < tile_.height; ++row) shade_row(row);
     return counters_;
   }
@@ -85,27 +87,27 @@ class TileShader {
         column += equal;
         continue;
       }
-      const VisibleTriangle first = visible_[visible_index(slots[column])];
-      Run run = {column, row, 0, first.draw, slots + column, true, false};
-      append(run, equal);
-      while (equal < kLongRun && column + run.lanes < tile_.width && slots[column + run.lanes] != kNoSlot) {
-        const std::uint32_t next = slots[column + run.lanes];
-        const int length = equal_run(slots + column + run.lanes, tile_.width - column - run.lanes);
-        if (length >= kLongRun || visible_[visible_index(next)].draw != run.draw) break;  // a run of its own
-        append(run, length);
-        run.uniform = false;
+      Run run = {column, row, 0, nullptr, slots + column, true, false};
+      while (append(run, equal) && equal < kLongRun && column + run.lanes < tile_.width && slots[column + run.lanes] != kNoSlot) {
+        equal = equal_run(slots + column + run.lanes, tile_.width - column - run.lanes);
+        if (equal >= kLongRun) break;  // a run of its own
       }
       shade(run);
       column += run.lanes;
     }
   }
 
-  // The next `lanes` texels of the run, which show one triangle.
-  void append(Run& run, int lanes) {
+  // Takes the next `lanes` texels, which show one triangle, into the run; false, and nothing taken, where they are of another draw.
+  bool append(Run& run, int lanes) {
     const std::uint32_t index = visible_index(run.slots[run.lanes]);
+    const VisibleTriangle& triangle = visible_[index];
+    if (run.draw == nullptr) run.draw = triangle.draw;
+    if (triangle.draw != run.draw) return false;
     std::fill_n(offset_.at + run.lanes, lanes, static_cast<std::int64_t>(index) * context_.layout.stride());
+    run.uniform = run.lanes == 0;
     run.lanes += lanes;
-    run.perspective |= visible_[index].perspective;
+    run.perspective |= triangle.perspective;
+    return true;
   }
 
   void shade(const Run& run) {
