@@ -66,6 +66,7 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   const Mesh mesh = welded_by_position(model.mesh);
   const progressive::ProgressiveResult made = naming_the_model(options.input, [&] {
     simplify::SimplifyOptions how;
+    if (options.metric == "kim") how.metric = simplify::MetricName::kim;
     how.target_faces = static_cast<std::size_t>(options.faces);
     how.progress = [&](std::size_t done, std::size_t total) {
       console.progress("faces removed", static_cast<int>(done), static_cast<int>(total));
@@ -147,9 +148,10 @@ Verb add_progressive(CLI::App& root) {
                                        "From a model: triangles of the base (default: as few as it goes); from .epm: of the level, at most")
                            ->type_name("N")
                            ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 32));
-  app->add_option("--metric", options->metric, "Error metric: qem, the quadric of Garland & Heckbert")
-      ->type_name("qem")
-      ->check(CLI::IsMember({"qem"}));
+  app->add_option("--metric", options->metric,
+                  "Error metric: qem, the quadric of Garland & Heckbert (default); kim, that of Kim, Choi & Lee for vertex colours")
+      ->type_name("qem|kim")
+      ->check(CLI::IsMember({"qem", "kim"}));
   app->add_option("-o,--output", options->output, "Progressive mesh (.epm), or the level's model (.obj .ply .glb; without materials)")
       ->required()
       ->type_name("OUT")

@@ -30,7 +30,7 @@ using validation::grouped;
 struct Options {
   std::string model, output, metric = "qem";
   std::optional<std::int64_t> faces;
-  std::optional<double> ratio;
+  std::optional<double> ratio, unit;
   double min_cosine = simplify::LegalityOptions{}.min_normal_cosine;
   bool refuse_non_manifold = false;
   CommonOptions common;
@@ -131,6 +131,7 @@ std::string refusals_line(const SimplifyResult& result) {
 int run(const Options& options) {
   apply(options.common);
   if (options.output == "-") throw UsageError("simplify: a model may be several files: expected -o FILE.obj, .ply or .glb");
+  if (options.unit && options.metric != "kim") throw UsageError("simplify: --unit is of --metric kim");
   if (options.faces.has_value() == options.ratio.has_value()) throw UsageError("simplify: expected one of --faces and --ratio");
   require_writable_file(options.output);
   require_writable_file(options.common.json);
@@ -144,6 +145,8 @@ int run(const Options& options) {
   const SimplifyResult result = naming_the_model(options.model, [&] {
     simplify::SimplifyOptions how;
     how.target_faces = job.target_faces;
+    if (options.metric == "kim") how.metric = simplify::MetricName::kim;
+    how.kim.unit = options.unit.value_or(0);
     how.record_landings = true;
     how.refuse_non_manifold = options.refuse_non_manifold;
     how.legality.min_normal_cosine = options.min_cosine;
@@ -185,9 +188,13 @@ Verb add_simplify(CLI::App& root) {
   app->add_option("--ratio", options->ratio, "Stop at this share of the model's triangles, 0 to 1")
       ->type_name("R")
       ->check(CLI::Range(0.0, 1.0));
-  app->add_option("--metric", options->metric, "Error metric: qem, the quadric of Garland & Heckbert")
-      ->type_name("qem")
-      ->check(CLI::IsMember({"qem"}));
+  app->add_option("--metric", options->metric,
+                  "Error metric: qem, the quadric of Garland & Heckbert (default); kim, that of Kim, Choi & Lee for vertex colours")
+      ->type_name("qem|kim")
+      ->check(CLI::IsMember({"qem", "kim"}));
+  app->add_option("--unit", options->unit, "For kim: the length in model units that counts as 1 (default: the diagonal / 8000)")
+      ->type_name("L")
+      ->check(CLI::PositiveNumber);
   app->add_option("--min-cosine", options->min_cosine,
                   "Least cosine between a triangle's normals before and after a collapse, 0 to 1 (default 0.2)")
       ->type_name("C")

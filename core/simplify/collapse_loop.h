@@ -9,7 +9,8 @@
 
 namespace etalon::simplify {
 
-/// Metric: double cost(u, v) (never NaN), void collapse(u, v) (state of v after u went into it), and kCostsAreLocal (qem_metric.h).
+/// Metric: double cost(u, v) (never NaN), of the states of u and v and the faces of u; void collapse(u, v) (state of v after u went into it); and
+/// kCostsAreLocal: whether cost(u, v) leaves the other faces of u out, so that a vertex that loses a neighbour keeps its other costs.
 ///
 /// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged then; a
 /// refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of the
@@ -57,16 +58,12 @@ class CollapseLoop {
     for (const std::uint32_t w : near_)
       if (w != step.v) refresh(w, step);
     requeue(best_of(step.v));
-    // Those that only see v's new cost.
-    if constexpr (Metric::kCostsAreLocal) {
-      mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t h) {
-        for (const std::uint32_t n : near_)
-          if (n == w) return;
-        see_new_cost(w, step.v, h);
-      });
-    } else {
-      mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t) { requeue(best_of(w)); });
-    }
+    // Those that only see v's new cost: nothing else of theirs has changed.
+    mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t h) {
+      for (const std::uint32_t n : near_)
+        if (n == w) return;
+      see_new_cost(w, step.v, h);
+    });
   }
 
   [[nodiscard]] const std::array<std::uint64_t, kRefusalCount>& refusals() const { return refusals_; }

@@ -17,7 +17,7 @@ struct QemOptions {
 class QemMetric {
  public:
   static constexpr std::size_t kStateBytes = sizeof(Quadric3<float>);
-  /// A collapse u→v changes the costs of half-edges that leave or reach v, and of those whose start lost or gained a face; no others.
+  /// The cost of u→v is of the states of u and v alone (collapse_loop.h).
   static constexpr bool kCostsAreLocal = true;
 
   QemMetric(const CollapseMesh& mesh, const UnitPositions& positions, const QemOptions& options);

@@ -116,8 +116,13 @@ SimplifyResult simplify_mesh(const Mesh& mesh, const SimplifyOptions& options) {
   result.repair = triangles.repair();
   count_kinds(triangles, result);
   const UnitPositions positions = unit_positions(triangles);
-  QemMetric metric(triangles, positions, options.qem);
-  run(triangles, positions, metric, options, result);
+  if (options.metric == MetricName::qem) {
+    QemMetric metric(triangles, positions, options.qem);
+    run(triangles, positions, metric, options, result);
+  } else {
+    KimMetric metric(triangles, positions, options.qem, options.kim);
+    run(triangles, positions, metric, options, result);
+  }
   extract(triangles, result);
   if (options.record_landings) measure_landings(mesh, result);
   return result;

@@ -7,12 +7,15 @@
 #include <optional>
 
 #include "core/mesh/landing.h"
+#include "core/simplify/kim_metric.h"
 #include "core/simplify/legality.h"
-#include "core/simplify/qem_metric.h"
 
 namespace etalon::simplify {
 
-enum class MetricName : std::uint8_t { qem };
+enum class MetricName : std::uint8_t {
+  qem,  ///< position (qem_metric.h)
+  kim,  ///< position and vertex colour (kim_metric.h)
+};
 
 /// One collapse as it happens, before the mesh changes.
 struct CollapseEvent {
@@ -28,6 +31,7 @@ struct SimplifyOptions {
   bool refuse_non_manifold = false;  ///< InputError for an input that is no oriented manifold, instead of locking those places
   bool record_landings = false;      ///< fill SimplifyResult::landings; at 10 % about twice the time
   QemOptions qem;
+  KimOptions kim;
   LegalityOptions legality;
   /// Called before each collapse with the mesh as it still is; for observers that build on the sequence.
   std::function<void(const CollapseMesh&, const CollapseEvent&)> before_collapse;

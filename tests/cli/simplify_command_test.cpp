@@ -86,6 +86,31 @@ TEST_CASE("simplify: --ratio; a target that cannot be reached is a warning; non-
                 "book.obj: mesh: expected an oriented manifold, got 1 edges of more than two faces (first: face 0)");
 }
 
+TEST_CASE("simplify: --metric kim on vertex colours") {
+  const ScratchFolder folder;
+  std::string obj;
+  for (int j = 0; j <= 8; ++j)
+    for (int i = 0; i <= 8; ++i) obj += "v " + std::to_string(i) + " " + std::to_string(j) + " 0 " + (i < 4 ? "0 0 0\n" : "1 1 1\n");
+  for (int j = 0; j < 8; ++j)
+    for (int i = 0; i < 8; ++i) {
+      const int a = 9 * j + i + 1;
+      obj += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(a + 10) + " " + std::to_string(a + 9) + "\n";
+    }
+  folder.file("board.obj", obj);
+  const CommandResult kim =
+      run_etalon({"simplify", "board.obj", "--faces", "20", "--metric", "kim", "--unit", "0.01", "-o", "kim.ply", "--json", "-"},
+                 {.folder = folder.path()});
+  REQUIRE(kim.exit_code == 0);
+  const json document = checked_document(kim, "simplify.json");
+  CHECK(document["metric"] == "kim");
+  CHECK(document["error_state_bytes_per_vertex"] == 48);
+  folder.file("square.obj", square_obj());
+  check_refused({"simplify", "square.obj", "--faces", "1", "--metric", "kim", "-o", "a.ply"}, 4, folder,
+                "square.obj: metric kim: expected vertex colours, got none");
+  check_refused({"simplify", "square.obj", "--faces", "1", "--unit", "1", "-o", "a.ply"}, 64, folder, "--unit is of --metric kim");
+  check_refused({"simplify", "square.obj", "--faces", "1", "--metric", "kim", "--unit", "0", "-o", "a.ply"}, 64, folder, "unit");
+}
+
 TEST_CASE("simplify: refusals") {
   const ScratchFolder folder;
   folder.file("square.obj", square_obj());

@@ -23,7 +23,8 @@ struct Least {
   std::uint32_t u = kNone, v = kNone;
 };
 
-Least least_of_all(const CollapseMesh& mesh, const QemMetric& metric, Legality& legality) {
+template <class Metric>
+Least least_of_all(const CollapseMesh& mesh, const Metric& metric, Legality& legality) {
   Least least;
   for (std::uint32_t u = 0; u < mesh.vertex_capacity(); ++u) {
     if (!mesh.vertex_alive(u) || mesh.kind(u) == VertexKind::locked) continue;
@@ -35,6 +36,26 @@ Least least_of_all(const CollapseMesh& mesh, const QemMetric& metric, Legality& 
     });
   }
   return least;
+}
+
+/// Collapses all there is, each step against the search of all half-edges.
+template <class Metric>
+void follow(CollapseMesh& mesh, const UnitPositions& positions, Metric& metric) {
+  Legality legality(mesh, positions, {}), judge(mesh, positions, {});
+  CollapseLoop<Metric> loop(mesh, metric, legality);
+  for (int i = 0; i < 100000; ++i) {
+    const Least expected = least_of_all(mesh, metric, judge);
+    const auto step = loop.find();
+    REQUIRE(step.u == expected.u);
+    if (step.u == kNone) break;
+    REQUIRE(step.v == expected.v);
+    REQUIRE(step.cost == expected.cost);
+    const std::uint32_t faces = mesh.face_count();
+    loop.apply(step);
+    REQUIRE(mesh.violation() == "");
+    REQUIRE(mesh.face_count() + static_cast<std::uint32_t>(step.edge.face_count()) == faces);
+    REQUIRE(loop.queue().ok());
+  }
 }
 
 std::string message_of(const Mesh& mesh, const SimplifyOptions& options) {
@@ -49,26 +70,21 @@ std::string message_of(const Mesh& mesh, const SimplifyOptions& options) {
 }  // namespace
 
 TEST_CASE("each step is the least legal one of all, and keeps every invariant, down to the last") {
-  for (const NamedMesh& sample : sample_meshes()) {
+  for (NamedMesh sample : sample_meshes()) {
     CAPTURE(sample.name);
+    {
+      CollapseMesh mesh(sample.mesh, {});
+      const UnitPositions positions = unit_positions(mesh);
+      QemMetric metric(mesh, positions, {});
+      follow(mesh, positions, metric);
+    }
+    Rng rng(17);
+    for (std::size_t v = 0; v < sample.mesh.vertex_count(); ++v)
+      sample.mesh.colors.push_back({rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0, 1), 1});
     CollapseMesh mesh(sample.mesh, {});
     const UnitPositions positions = unit_positions(mesh);
-    QemMetric metric(mesh, positions, {});
-    Legality legality(mesh, positions, {}), judge(mesh, positions, {});
-    CollapseLoop<QemMetric> loop(mesh, metric, legality);
-    for (int i = 0; i < 100000; ++i) {
-      const Least expected = least_of_all(mesh, metric, judge);
-      const auto step = loop.find();
-      REQUIRE(step.u == expected.u);
-      if (step.u == kNone) break;
-      REQUIRE(step.v == expected.v);
-      REQUIRE(step.cost == expected.cost);
-      const std::uint32_t faces = mesh.face_count();
-      loop.apply(step);
-      REQUIRE(mesh.violation() == "");
-      REQUIRE(mesh.face_count() + static_cast<std::uint32_t>(step.edge.face_count()) == faces);
-      REQUIRE(loop.queue().ok());
-    }
+    KimMetric metric(mesh, positions, {}, {.unit = 0.1});
+    follow(mesh, positions, metric);
   }
 }
 
@@ -174,6 +190,10 @@ TEST_CASE("bad input is refused with its place") {
   Mesh wedge = square();
   wedge.faces[1][0] = WedgeId(7u);
   CHECK(message_of(wedge, {}) == "face 1: wedge: expected below 4, got 7");
+  CHECK(message_of(square(), {.metric = MetricName::kim}) == "metric kim: expected vertex colours, got none");
+  Mesh coloured = square();
+  coloured.colors.assign(4, {1, 0, 0, 1});
+  CHECK(message_of(coloured, {.metric = MetricName::kim, .kim = {.unit = -1}}).find("metric kim: unit") == 0);
   CHECK(message_of(square(), {.locked = {VertexId(4u)}}) == "locked vertex: expected below 4, got 4");
 }
 
