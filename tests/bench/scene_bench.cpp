@@ -41,10 +41,12 @@ double goal_of(const std::string& scene, const std::string& rival) {
   return 0;
 }
 
-void render_at(raster::SimdLevel level, const BenchScene& scene) {
+// Into the images of the round before, as the rival draws into its framebuffer.
+void render_at(raster::SimdLevel level, const BenchScene& scene, std::vector<Image>& images) {
   raster::set_simd_level(level);
   raster::CpuRenderer renderer;
-  benchmark::DoNotOptimize(renderer.render(scene.list, scene.frame));
+  renderer.render_into(scene.list, scene.frame, images);
+  benchmark::DoNotOptimize(images.data());
 }
 
 double differing_share(const Image& a, const Image& b) {
@@ -82,7 +84,7 @@ SceneBench::SceneBench(const SceneEntry& entry, BenchScene scene, const SceneBen
   result_.name = entry.name;
   result_.title = entry.title;
   if (options.only_ours) {
-    add(kOurs, [this] { render_at(reference_level(), scene_); });
+    add(kOurs, [this] { render_at(reference_level(), scene_, images_); });
     return;
   }
   result_.work = work_of(scene_);
@@ -94,8 +96,8 @@ SceneBench::SceneBench(const SceneEntry& entry, BenchScene scene, const SceneBen
 }
 
 void SceneBench::add_ours(const std::vector<raster::SimdLevel>& levels) {
-  add(kOurs, [this] { render_at(reference_level(), scene_); });
-  for (const raster::SimdLevel level : levels) add(ours_at(level), [this, level] { render_at(level, scene_); });
+  add(kOurs, [this] { render_at(reference_level(), scene_, images_); });
+  for (const raster::SimdLevel level : levels) add(ours_at(level), [this, level] { render_at(level, scene_, images_); });
   add(kValidation, [this] { validate(scene_.list, scene_.frame); });
   raster::set_simd_level(reference_level());
   raster::CpuRenderer renderer;

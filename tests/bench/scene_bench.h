@@ -50,6 +50,7 @@ class SceneBench {
   void add_rival_way(const std::string& name, const Image& ours, const Image& theirs, std::function<void()> run);
 
   BenchScene scene_;
+  std::vector<Image> images_;
   SceneResult result_;
   OtherPrograms others_;
   std::unique_ptr<GlRival> rival_;
