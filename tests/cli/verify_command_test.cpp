@@ -1,3 +1,5 @@
+#include <array>
+
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
@@ -58,6 +60,34 @@ TEST_CASE("verify without OpenGL says why, draws what it can, and exits with 1")
                                           {.folder = folder.path(), .environment = {"MESA_GL_VERSION_OVERRIDE=2.1"}});
   CHECK(render.exit_code == 1);
   CHECK(render.error_lines().size() == 1);
+}
+
+TEST_CASE("--shader exact: every texel identical, no bound lent; the report names the mode") {
+  const ScratchFolder folder;
+  folder.file("square.obj", square_obj());
+  const CommandResult result = run_etalon({"verify", "square.obj", "--size", "96x64", "--shader", "exact"}, {.folder = folder.path()});
+  CAPTURE(result.out);
+  if (!has_gl(result)) return report_skip("--shader exact", "no OpenGL: comparison not tested");
+  CHECK(result.exit_code == 0);
+  const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
+  CHECK(document["verdict"] == "agreed");
+  CHECK(document["total"]["identical"] == 6 * 96 * 64);
+  CHECK(document["bounds"]["origin"] == "exact: docs/contract.md, version 1");
+  CHECK(document["renderers"]["gl"].get<std::string>().find(", exact shader") != std::string::npos);
+
+  std::array<json, 2> drawn;
+  for (std::size_t side = 0; side < 2; ++side) {
+    drawn[side] = json::parse(run_etalon({"render", "square.obj", "--size", "64", "--filter", "linear", "--backend",
+                                          side == 0 ? "cpu" : "gl", "--shader", "exact", "-o", "a.exr", "--json", "-"},
+                                         {.folder = folder.path()})
+                                  .out);
+  }
+  CHECK(drawn[0]["targets"] == drawn[1]["targets"]);
+
+  const CommandResult softpipe =
+      run_etalon({"verify", "square.obj", "--size", "32", "--driver", "softpipe", "--shader", "exact"}, {.folder = folder.path()});
+  CHECK(softpipe.exit_code == 1);
+  CHECK(softpipe.out.find("the exact shader needs version 4.0") != std::string::npos);
 }
 
 TEST_CASE("a model without texture coordinates: the indexed job is skipped, not an error") {

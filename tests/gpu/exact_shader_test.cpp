@@ -375,6 +375,60 @@ TEST_CASE("an exact tie of depth rounding: half-way between two float32") {
   CHECK(*golden[1].channels<float>(1, 0) == 0.5f + 0x1p-23f);  // 1/2 + 3·2^-25: to even, upwards
 }
 
+TEST_CASE("numbers exactly on the borders of their formats, in perspective: doubles cannot decide a single one") {
+  if (exact_or_skip("exact shader: borders") == nullptr) return;
+  const std::unique_ptr<Context> context = make_context({.driver = Driver::llvmpipe});
+  GlPipeline native(*context);
+  ExactPipeline pipeline(*context, native.limits());
+  Rng rng(63);
+  // All corners of a triangle have the same number a: sum(E·w·w·a) / sum(E·w·w) is a, but no double need say so.
+  const auto check_constant = [&](TargetSpec target, HalfRounding rounding, float constant, const Sampler* sampler) {
+    Frame frame = frame_of(*exact_or_skip(""), 48, 40, 64, {kIdTarget, target});
+    frame.state.half_rounding = rounding;
+    DrawList list = random_list(rng, frame, 8, 1);
+    for (RasterVertex& v : list.vertices) {
+      v.w = rng.uniform(0.25f, 4.0f);
+      v.uv = {constant, constant};
+      v.color = {constant, constant, constant, constant};
+    }
+    if (sampler != nullptr) {
+      list.images = {std::make_shared<const Image>(random_texture(rng, 12, 12, kRgba8))};
+      list.draws[0] = {.triangle_count = list.draws[0].triangle_count, .shading = Shading::texture, .texture = 0, .sampler = *sampler};
+    }
+    raster::CpuRenderer cpu;
+    const std::vector<Image> golden = cpu.render(list, frame);
+    CHECK(differing(golden, pipeline.draw(list, frame)) == std::vector<std::size_t>(2, 0));
+    REQUIRE(covered(golden[0]) > 100);
+    CHECK(pipeline.counters().undecided == covered(golden[0]));
+  };
+  constexpr HalfRounding kEven = HalfRounding::nearest_even, kZero = HalfRounding::toward_zero;
+  check_constant(color_target(ChannelType::unorm8, 4), kEven, 0.5f, nullptr);                   // 127.5
+  check_constant(color_target(ChannelType::unorm16, 4), kEven, 0.5f, nullptr);                  // 32767.5
+  check_constant(color_target(ChannelType::half, 4), kEven, 1 + 0x1p-11f, nullptr);             // down to even
+  check_constant(color_target(ChannelType::half, 4), kEven, -1 - 0x3p-11f, nullptr);            // up to even
+  check_constant(color_target(ChannelType::half, 4), kZero, 1 + 0x1p-10f, nullptr);             // a half itself
+  check_constant(color_target(ChannelType::half, 4), kEven, 65520, nullptr);                    // inf
+  check_constant(color_target(ChannelType::srgb8, 3), kEven, 0x1.dd681c0000000p-12f, nullptr);  // the threshold T_2
+  check_constant({TargetContent::coordinate, {ChannelType::half, 2}, {}}, kEven, 1 + 0x1p-11f, nullptr);
+  const Sampler nearest{Filter::nearest, Wrap::repeat, Wrap::mirrored_repeat}, linear{Filter::linear, Wrap::repeat, Wrap::clamp};
+  check_constant(color_target(ChannelType::unorm8, 4), kEven, 0.25f, &nearest);    // u·12 = 3
+  check_constant(color_target(ChannelType::unorm8, 4), kEven, -1.75f, &nearest);   // −21
+  check_constant(color_target(ChannelType::unorm8, 4), kEven, 0.625f, &linear);    // u·12 − 1/2 = 7
+  check_constant(color_target(ChannelType::unorm16, 4), kEven, -1.375f, &linear);  // −17
+}
+
+TEST_CASE("depths exactly half-way between two float32, of more bits than a double holds") {
+  GlRenderer* gl = exact_or_skip("exact shader: depth borders");
+  if (gl == nullptr) return;
+  // One step of 2^-24 a texel from 1/2 on: at the sample i + 1/2 half-way between two of the float32 that are 2^-24 apart. Areas of 2^37.
+  const Frame frame = frame_of(*gl, 256, 256, 4000, {kIdTarget, kDepthTarget});
+  DrawList list = triangle_list({vertex_at(-1798, -3000.25), vertex_at(3806, 17.625), vertex_at(-310, 3999.5), vertex_at(-1798, -3000.25),
+                                 vertex_at(3806, 17.625), vertex_at(1234, -3501)});
+  for (RasterVertex& v : list.vertices) v.z = 0.5f + static_cast<float>(v.x / 256 + 1798) * 0x1p-24f;  // exact
+  const std::vector<Image> golden = check_identical(*gl, list, frame);
+  CHECK(covered(golden[0]) == golden[0].texel_count());
+}
+
 TEST_CASE("integers for every texel give the same bytes as doubles for nearly all") {
   if (exact_or_skip("exact shader: integers") == nullptr) return;
   const std::unique_ptr<Context> context = make_context({.driver = Driver::llvmpipe});

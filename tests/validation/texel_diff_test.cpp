@@ -191,14 +191,15 @@ TEST_CASE("depth order: nearly equal planes are a tie with the other triangle's 
     const Frame frame = frame_of(
         32, 32,
         with_ids ? std::vector<TargetSpec>{{TargetContent::color, kRgba8}, kId} : std::vector<TargetSpec>{{TargetContent::color, kRgba8}});
-    const auto swap_at = [&](const DrawList& list) {
+    const auto swap_at = [&](const DrawList& list, const DeviceModel& device = llvmpipe_model()) {
       const auto golden = exact(list, frame);
       auto candidate = golden;
       for (int c = 0; c < 3; ++c) candidate[0].texel(5, 6)[c] = std::byte{128};
       if (with_ids) *candidate[1].channels<std::uint32_t>(5, 6) = 1;
-      return diff(list, frame, golden, candidate);
+      return diff(list, frame, golden, candidate, device);
     };
     CHECK(swap_at(pair(0x1p-24f)).counts[TexelClass::tie] == 1);
+    CHECK(swap_at(pair(0x1p-24f), contract_model()).counts[TexelClass::unexplained] == 1);  // the contract decides each of them
     const DiffResult wrong = swap_at(pair(0x1p-10f));
     CHECK(wrong.counts[TexelClass::unexplained] == 1);
     CHECK(wrong.unexplained_by[static_cast<std::size_t>(Cause::depth_order)] == 1);
@@ -233,6 +234,7 @@ TEST_CASE("a sliver on which float32 setup degenerates is unbounded for values, 
   const DiffResult wild = diff(list, frame, golden, candidate);
   CHECK(wild.counts[TexelClass::unbounded] == 1);
   CHECK(wild.agreed());
+  CHECK(diff(list, frame, golden, candidate, contract_model()).counts[TexelClass::unexplained] == 1);
   *candidate[1].channels<std::uint32_t>(100, 100) = kNoTriangle;  // nothing was drawn, and that is coverage
   *candidate[1].channels<std::uint32_t>(100, 101) = 0;            // and here something was, beyond the edge
   const DiffResult missing = diff(list, frame, golden, candidate);
