@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/draw/channel_maxima.h"
 #include "core/draw/draw_list.h"
 #include "core/math/half.h"
 
@@ -65,10 +65,12 @@ struct VertexLimits {
   // All at once, without a branch; false for NaN.
   [[nodiscard]] bool hold(const RasterVertex& v) const {
     constexpr float most = 0x1p40f;
-    bool good = (v.x >= lo) & (v.x <= x_hi) & (v.y >= lo) & (v.y <= y_hi) & (v.z >= 0) & (v.z <= 1) & (v.w >= 0x1p-20f) & (v.w <= 0x1p20f);
-    good &= (std::abs(v.uv.x) <= most) & (std::abs(v.uv.y) <= most);
-    for (int c = 0; c < 4; ++c) good &= std::abs(v.color[c]) <= most;
-    return good;
+    int good = 1;
+    for (const bool holds : {v.x >= lo, v.x <= x_hi, v.y >= lo, v.y <= y_hi, v.z >= 0, v.z <= 1, v.w >= 0x1p-20f, v.w <= 0x1p20f,
+                             std::abs(v.uv.x) <= most, std::abs(v.uv.y) <= most, std::abs(v.color[0]) <= most, std::abs(v.color[1]) <= most,
+                             std::abs(v.color[2]) <= most, std::abs(v.color[3]) <= most})
+      good &= static_cast<int>(holds);
+    return good != 0;
   }
 
   void refuse_vertex(const RasterVertex& v, std::size_t n) const {
@@ -131,47 +133,6 @@ void validate_triangles(const DrawList& list) {
 double number_at(const Image& image, int x, int y, int c) {
   return image.format().type == ChannelType::half ? half_to_double(image.channels<std::uint16_t>(x, y)[c])
                                                   : double{image.channels<float>(x, y)[c]};
-}
-
-// Largest magnitude in each channel of an image; NaN counts as infinite. Bounded formats have 1.
-using ChannelMaxima = std::array<double, 4>;
-
-// Magnitudes of one float format are ordered as their bits without the sign, NaN last.
-template <class Bits>
-std::array<Bits, 4> largest_bits(const Image& image) {
-  constexpr Bits magnitude = static_cast<Bits>(~Bits{0}) >> 1;
-  const auto channels = static_cast<std::size_t>(image.format().channels);
-  const auto* const numbers = reinterpret_cast<const Bits*>(image.bytes().data());
-  std::vector<std::array<Bits, 4>> blocks((image.texel_count() + kBlock - 1) / kBlock);
-  parallel_for_blocks(image.texel_count(), kBlock, [&](std::size_t begin, std::size_t end) {
-    constexpr std::size_t period = 12;  // a multiple of 1, 2, 3 and 4 channels: number n belongs to channel n mod period mod channels
-    std::array<Bits, period> most{};
-    std::size_t n = begin * channels;
-    for (; n + period <= end * channels; n += period)
-      for (std::size_t k = 0; k < period; ++k) most[k] = std::max(most[k], static_cast<Bits>(numbers[n + k] & magnitude));
-    for (std::size_t k = 0; n + k < end * channels; ++k) most[k] = std::max(most[k], static_cast<Bits>(numbers[n + k] & magnitude));
-    std::array<Bits, 4>& block = blocks[begin / kBlock];
-    for (std::size_t k = 0; k < period; ++k) block[k % channels] = std::max(block[k % channels], most[k]);
-  });
-  std::array<Bits, 4> largest{};
-  for (const auto& block : blocks)
-    for (std::size_t c = 0; c < 4; ++c) largest[c] = std::max(largest[c], block[c]);
-  return largest;
-}
-
-ChannelMaxima channel_maxima(const Image& image) {
-  const auto finite_or_infinite = [](double magnitude) {
-    return std::isnan(magnitude) ? std::numeric_limits<double>::infinity() : magnitude;
-  };
-  ChannelMaxima largest{1, 1, 1, 1};
-  if (image.format().type == ChannelType::half) {
-    const auto bits = largest_bits<std::uint16_t>(image);
-    for (std::size_t c = 0; c < 4; ++c) largest[c] = finite_or_infinite(half_to_double(bits[c]));
-  } else if (image.format().type == ChannelType::float32) {
-    const auto bits = largest_bits<std::uint32_t>(image);
-    for (std::size_t c = 0; c < 4; ++c) largest[c] = finite_or_infinite(std::bit_cast<float>(bits[c]));
-  }
-  return largest;
 }
 
 // What the images of a list hold, each scanned once however many draws use it.

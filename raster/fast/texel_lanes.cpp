@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/draw/channel_maxima.h"
 #include "core/math/half.h"
 #include "core/math/srgb.h"
 #include "raster/storage.h"
@@ -71,19 +72,8 @@ void read_channel(const Image& image, const IntLanes& offset, int lanes, int cha
 }
 
 double largest_texel(const Image& image) {
-  double largest = 0;
-  if (image.format().type == ChannelType::float32) {
-    const auto* numbers = reinterpret_cast<const float*>(image.bytes().data());
-    float most = 0;
-    for (std::size_t n = 0; n < image.bytes().size() / sizeof(float); ++n) most = std::max(most, std::abs(numbers[n]));
-    largest = most;
-  } else if (image.format().type == ChannelType::half) {
-    const auto* numbers = reinterpret_cast<const std::uint16_t*>(image.bytes().data());
-    for (std::size_t n = 0; n < image.bytes().size() / 2; ++n) largest = std::max(largest, half_to_double(numbers[n] & 0x7FFF));
-  } else {
-    largest = 1;
-  }
-  return largest;
+  const ChannelMaxima largest = channel_maxima(image);
+  return *std::max_element(largest.begin(), largest.end());
 }
 
 bool copies(PixelFormat image, PixelFormat target) {
