@@ -24,6 +24,9 @@ struct TriangleCoordinate {
   }
   /// Limbs for border decisions and linear values with texels of `texel_bits` bits.
   [[nodiscard]] int limbs(int texel_bits) const { return numbers.setup.linear_limbs(texel_bits); }
+  [[nodiscard]] Interval enclose_fraction(int axis, int size, std::int64_t index) const {
+    return numbers.enclose_fraction(static_cast<Attribute>(kU + axis), size, 0.5, index);
+  }
   /// u·size − offset/2; nothing where 128 bits may not hold it.
   [[nodiscard]] std::optional<NarrowSplit> split(int axis, int size, int offset) const {
     const ExactTriple& t = numbers.setup.attribute[kU + axis];
@@ -48,6 +51,14 @@ struct StoredCoordinate {
     const double v = value[static_cast<std::size_t>(axis)].approximate();
     const double error = std::abs(v) * 0x1p-49;
     return {v - error, v + error};
+  }
+  /// The product with the size is below 2^30 and its fraction keeps the number's own bits.
+  [[nodiscard]] Interval enclose_fraction(int axis, int size, std::int64_t index) const {
+    const DoubleDouble x = two_product(value[static_cast<std::size_t>(axis)].approximate(), size);
+    const bool exact = value[static_cast<std::size_t>(axis)].den == 1;
+    const double fraction = (x + two_sum(-static_cast<double>(index), -0.5)).high;
+    const double error = (exact ? 0 : std::abs(x.high) * 0x1p-51) + std::abs(fraction) * 0x1p-52;
+    return {fraction - error, fraction + error};
   }
   [[nodiscard]] std::optional<NarrowSplit> split(int axis, int size, int offset) const {
     const TexelValue& v = value[static_cast<std::size_t>(axis)];  // |m| < 2^24 where den is 1, and |m| <= den, e = 0 elsewhere
@@ -166,6 +177,7 @@ class Lookup {
       with_limbs(at.limbs(8),
                  [&]<int kLimbs>() { index = split_at_border<kLimbs>(at.template quotient<kLimbs>(axis), size, linear ? 1 : 0).index; });
     }
+    index_[static_cast<std::size_t>(axis)] = index;
     auto& texel = axis == 0 ? x_ : y_;
     texel[0] = wrapped(index, size, wrap);
     if (linear) texel[1] = wrapped(index + 1, size, wrap);
@@ -179,13 +191,19 @@ class Lookup {
     fraction_[static_cast<std::size_t>(axis)] = {split.fraction * (1 - 0x1p-51), split.fraction * (1 + 0x1p-51)};
   }
 
-  // Fractions from exact remainders; false where 128 bits may not hold them.
+  // Fractions by other means than a difference of doubles. Past an index that needed wide integers they may lie outside [0, 1]; the
+  // interpolant is not that of the next texel there, so those are left alone.
   template <class Coordinate>
   bool sharpen(const Coordinate& at) {
+    if (!decided_) return false;
     for (int axis = 0; axis < 2; ++axis) {
-      const auto split = at.split(axis, axis == 0 ? image_.width() : image_.height(), 1);
-      if (!split) return false;
-      set_fraction(axis, *split);
+      const int size = axis == 0 ? image_.width() : image_.height();
+      const auto split = at.split(axis, size, 1);
+      if (split) {
+        set_fraction(axis, *split);
+      } else {
+        fraction_[static_cast<std::size_t>(axis)] = at.enclose_fraction(axis, size, index_[static_cast<std::size_t>(axis)]);
+      }
     }
     return true;
   }
@@ -226,6 +244,7 @@ class Lookup {
   bool exact_only_;
   EvaluationCounters& counters_;
   std::array<int, 2> x_{}, y_{};
+  std::array<std::int64_t, 2> index_{};  ///< of the first texel, before the wrap
   std::array<Interval, 2> fraction_{};
   bool decided_ = true;
 };
