@@ -27,7 +27,7 @@ struct Grid {
 };
 
 // Blocks are a function of the list alone, so the order of ids in a tile is too. Few enough for a counter per block and tile.
-constexpr std::size_t kMostBlocks = 32, kLeastTriangles = 2048;
+constexpr std::size_t kMostBlocks = 32, kLeastTriangles = 8192;
 
 }  // namespace
 

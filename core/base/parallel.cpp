@@ -36,6 +36,7 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
     const DefaultFloatEnvironment environment;
     body(i);
   };
+  if (count == 1) return guarded(0);  // nothing to share, and waking threads costs more than small work
   const auto work = [&] { tbb::parallel_for(std::size_t{0}, count, guarded, tbb::simple_partitioner()); };
   if (arena)
     arena->execute(work);

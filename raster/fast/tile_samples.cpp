@@ -202,11 +202,14 @@ void find_samples(const DrawList& list, const Frame& frame, const Tile& tile, co
   if (needs.runner_up) std::fill_n(samples.runner_up, texels, std::numeric_limits<float>::infinity());
   SampleFinder finder(list, frame, tile, needs, kernels, samples, counters);
   // A tile's triangles may lie anywhere in the list: asked for early, their corners first and then those vertices.
-  constexpr std::size_t kAhead = 8;
+  constexpr std::size_t kAhead = 16;
   for (std::size_t n = 0; n < count; ++n) {
     if (n + 2 * kAhead < count) __builtin_prefetch(&list.triangles[ids[n + 2 * kAhead]]);
     if (n + kAhead < count)
-      for (const std::uint32_t corner : list.triangles[ids[n + kAhead]]) __builtin_prefetch(&list.vertices[corner]);
+      for (const std::uint32_t corner : list.triangles[ids[n + kAhead]]) {  // a vertex may lie in two cache lines
+        __builtin_prefetch(&list.vertices[corner]);
+        __builtin_prefetch(reinterpret_cast<const std::byte*>(&list.vertices[corner] + 1) - 1);
+      }
     finder.draw(ids[n], static_cast<std::uint32_t>(n));
   }
 }
