@@ -1,4 +1,4 @@
-// Which vector instructions the fast path uses. The bytes do not depend on it (docs/contract.md#evaluation); the time does.
+// Which vector instructions the fast path uses. The bytes do not depend on it (docs/decisions/0005-fast-path.md); the time does.
 #pragma once
 
 #include <cstdint>

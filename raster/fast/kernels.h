@@ -1,5 +1,5 @@
 // The loops of the fast path over one run of texels of a tile's row, compiled once per instruction set (kernels.cpp). They decide only
-// where a bound proves them right and say where not; docs/exactness of each bound is derived where it is formed (planes.h, below).
+// where a bound proves them right, and say where not. Bounds are derived where they are formed: planes.cpp and the .inc files.
 #pragma once
 
 #include <array>
