@@ -221,13 +221,14 @@ void add_ramp(FixedScene& scene, int steps, float low, float high) {
   add_rectangle(scene.list, corners);
 }
 
-FixedScene depth_tie_scene(std::uint64_t seed) {
+// `layers` triangles; with margins the depths behind the nearest count too.
+FixedScene depth_tie_scene(std::uint64_t seed, int layers, bool margins) {
   Rng rng(seed);
-  FixedScene scene{fmt::format("depths {}", seed), {}, {61, 43, 64, {}, kColorAndId}};
+  FixedScene scene{fmt::format("depths {}, {} layers{}", seed, layers, margins ? ", margins" : ""), {}, {61, 43, 64, {}, kColorAndId}};
   scene.frame.targets.push_back({TargetContent::depth, kR32f});
-  scene.frame.targets.push_back({TargetContent::margins, kRgba32f});
+  if (margins) scene.frame.targets.push_back({TargetContent::margins, kRgba32f});
   open_draw(scene.list, Shading::vertex_color);
-  for (int n = 0; n < 40; ++n) {
+  for (int n = 0; n < layers; ++n) {
     std::array<RasterVertex, 3> corner;
     for (RasterVertex& vertex : corner) {
       vertex = random_vertex(rng, scene.frame, {.on_lattice = rng.coin()});
@@ -235,7 +236,7 @@ FixedScene depth_tie_scene(std::uint64_t seed) {
       vertex.z = static_cast<float>(rng.below(9)) / 8;
       if (vertex.z < 1 && rng.below(4) == 0) vertex.z += 0x1p-24f;
     }
-    if (n % 3 == 0) corner[1].z = corner[2].z = corner[0].z;
+    if (n % 3 == 0) corner[0].z = corner[1].z = corner[2].z = n % 2 == 0 ? 1 : corner[0].z;  // on the far plane: never drawn
     add_triangle(scene.list, corner[0], corner[1], corner[2]);
     if (n % 4 == 0) add_triangle(scene.list, corner[1], corner[2], corner[0]);  // the same plane again
   }
@@ -276,7 +277,10 @@ SceneFamily tie_scenes() {
     scene.frame.state.half_rounding = HalfRounding::toward_zero;
     family.scenes.push_back(std::move(scene));
   }
-  for (std::uint64_t n = 0; n < 6; ++n) family.scenes.push_back(depth_tie_scene(10500 + n));
+  seed = 10500;
+  for (const int layers : {4, 9, 40})
+    for (const bool margins : {true, false})
+      for (int n = 0; n < 4; ++n) family.scenes.push_back(depth_tie_scene(seed++, layers, margins));
   return family;
 }
 

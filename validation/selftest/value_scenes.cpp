@@ -130,13 +130,17 @@ SceneFamily wrap_scenes() {
           for (const float reach_texel : {0.0f, 0x1p20f, 0x1p29f}) {
             const float reach = reach_texel == 0 ? 3 : reach_texel / static_cast<float>(std::max(size.width, size.height));
             Rng rng(seed++);
-            FixedScene scene{fmt::format("{}, wraps {} {}, {}x{}, up to {}", to_string(filter), static_cast<int>(wrap_u),
-                                         static_cast<int>(wrap_v), size.width, size.height, reach),
+            // Far away the coordinate's own error is what a float32 target must see; textures of bytes have a kernel of their own.
+            constexpr std::array kFormats{kRgba8, PixelFormat{ChannelType::float32, 3}, PixelFormat{ChannelType::unorm16, 2},
+                                          PixelFormat{ChannelType::half, 4}};
+            const PixelFormat format = kFormats[seed % kFormats.size()];
+            FixedScene scene{fmt::format("{}, wraps {} {}, {}x{} {}, up to {}", to_string(filter), static_cast<int>(wrap_u),
+                                         static_cast<int>(wrap_v), size.width, size.height, to_string(format), reach),
                              {},
-                             {33, 17, 64, {}, {{TargetContent::color, kRgba8}}}};
+                             {33, 17, 64, {}, {{TargetContent::color, kRgba8}, {TargetContent::color, kRgba32f}}}};
             Draw& draw = open_draw(scene.list, Shading::texture);
             draw.sampler = {filter, wrap_u, wrap_v};
-            draw.texture = add_image(scene.list, noise_image(size.width, size.height, kRgba8, rng));
+            draw.texture = add_image(scene.list, noise_image(size.width, size.height, format, rng));
             add_cover(scene.list, rng, scene.frame, {.w = seed % 2 != 0 ? W::one : W::perspective, .uv_low = -reach, .uv_high = reach});
             family.scenes.push_back(std::move(scene));
           }
@@ -162,6 +166,46 @@ float extreme_attribute(Rng& rng) {
   constexpr std::array kNumbers{0x1p40f,  -0x1p40f, 0x1p-40f, 0x1.fffffep-41f, -0.0f, 0.0f,           1.0f,       65504.0f,
                                 65520.0f, 65536.0f, 0x1p-24f, 0x1p-25f,        0.5f,  0x1.fffffep-1f, 0.0031308f, 0.04045f};
   return rng.coin() ? kNumbers[rng.below(kNumbers.size())] : rng.uniform(-2, 2);
+}
+
+}  // namespace
+
+namespace {
+
+// Around 2^-40, below which what is filtered, and a coordinate, is 0; both signs.
+std::shared_ptr<const Image> image_of_tiny_numbers(PixelFormat format, Rng& rng) {
+  auto image = std::make_shared<Image>(11, 7, format);
+  for (int y = 0; y < image->height(); ++y)
+    for (int x = 0; x < image->width(); ++x)
+      for (int c = 0; c < format.channels; ++c) image->channels<float>(x, y)[c] = rng.uniform(-0x1p-39f, 0x1p-39f);
+  return image;
+}
+
+// Filtered texels, and coordinates from a map, of which most are nearly nothing.
+void add_tiny_number_scenes(SceneFamily& family) {
+  std::uint64_t seed = 4500;
+  for (const Shading shading : {Shading::texture, Shading::indexed})
+    for (const Filter filter : {Filter::nearest, Filter::linear})
+      for (const W w : {W::one, W::perspective}) {
+        Rng rng(seed++);
+        FixedScene scene{
+            fmt::format("tiny numbers, {}, {}, {}", shading == Shading::texture ? "texture" : "map", to_string(filter), name_of(w)),
+            {},
+            {37, 31, 64, {}, {{TargetContent::color, kRgba32f}, {TargetContent::color, kRgba8}}}};
+        Draw draw{.shading = shading};
+        if (shading == Shading::texture) {
+          draw.texture = add_image(scene.list, image_of_tiny_numbers(kRgba32f, rng));
+          draw.sampler = random_sampler(rng, filter);
+        } else {
+          draw.texture = add_image(scene.list, noise_image(32, 32, kRgba8, rng));
+          draw.sampler = {Filter::nearest, Wrap::repeat, Wrap::mirrored_repeat};
+          draw.indexing_map = add_image(scene.list, image_of_tiny_numbers(kRg32f, rng));
+          draw.map_sampler = random_sampler(rng, filter);
+        }
+        open_draw(scene.list, shading) = draw;
+        add_cover(scene.list, rng, scene.frame, {.w = w});
+        family.scenes.push_back(std::move(scene));
+      }
 }
 
 }  // namespace
@@ -202,6 +246,7 @@ SceneFamily extreme_value_scenes() {
           }
           family.scenes.push_back(std::move(scene));
         }
+  add_tiny_number_scenes(family);
   return family;
 }
 
