@@ -1,5 +1,7 @@
 // Compiled once per instruction set by Highway (foreach_target includes this file again). Contraction is allowed here: every bound holds
 // for fused and unfused arithmetic alike, so the bytes cannot depend on it.
+// Vectors whose length is not known when compiling cannot be members of a struct: SVE and RISC-V use the next best target.
+#define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raster/fast/kernels.cpp"
 #include <hwy/foreach_target.h>

@@ -29,7 +29,8 @@ struct alignas(64) OffsetLanes {
   std::int64_t at[kRunLanes];
 };
 
-/// A number per lane and a bound on its error: the exact one lies in [value − error, value + error]. error may be +inf, never NaN.
+/// A number per lane and a bound on its error: the exact one lies in [value − error, value + error]. The error holds room for one rounding
+/// more, of value ± error or of value · image size. It may be +inf, never NaN, and kExactPlane (planes.h), which is negative.
 struct Values {
   DoubleLanes value, error;
 };

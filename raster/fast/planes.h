@@ -17,7 +17,8 @@ inline constexpr int kFirstPlane = 5;
 // An attribute is base + (anchor + X·x + Y·y)/Q, within error wherever a sample of the tile is inside the triangle.
 inline constexpr int kPlaneBase = 0, kPlaneAnchor = 1, kPlaneX = 2, kPlaneY = 3, kPlaneError = 4;
 inline constexpr int kPlaneNumbers = 5;
-/// The error of a plane that has none (exact_planes.h): negative, and lost against any value it is added to.
+/// The error of a plane that has none (exact_planes.h): value and value · image size are exact, nothing else is promised. Negative, and lost
+/// against any value it is added to.
 inline constexpr double kExactPlane = -0x1p-1000;
 
 // An edge function: at the anchor, per column, per row, exact integers where kMostEdgeBits holds; and 1 / length of the edge in sub-texels.

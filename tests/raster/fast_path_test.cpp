@@ -117,6 +117,24 @@ TEST_CASE("a screen of true ties needs no integers a texel: its planes are exact
           }
 }
 
+TEST_CASE("margins of linear lookups where ½ does not fit the grid of an exact plane") {
+  struct Case {
+    int image_width;
+    float u0, u1;
+  };
+  const float tiny = 0x1p-26f, far = -0.25f + 512 * 0x1p-26f;
+  for (const Case& c : {Case{1, tiny, std::nextafter(tiny, 1.0f)}, Case{32767, far, far + 3 * 0x1p-26f}}) {
+    Frame frame = frame_of(64, 64, {{TargetContent::margins, kRgba32f}});
+    frame.guard = 8160;
+    DrawList list = list_of({at(-32, -32, c.u0, 0.3f), at(8160, -32, c.u1, 0.3f), at(-32, 8160, c.u0, 0.3f)}, Shading::texture);
+    for (RasterVertex& v : list.vertices) v.z = 0.5f;
+    list.images = {std::make_shared<Image>(c.image_width, 1, PixelFormat{ChannelType::unorm8, 1})};
+    list.draws[0].texture = 0, list.draws[0].sampler.filter = Filter::linear;
+    raster::CpuRenderer fast, exact(raster::Evaluation::exact);
+    CHECK(fast.render(list, frame) == exact.render(list, frame));
+  }
+}
+
 TEST_CASE("away from ties fewer than one value in 100,000 is left to wide integers") {
   Rng rng(11);
   for (const bool perspective : {false, true})
