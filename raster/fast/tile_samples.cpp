@@ -134,8 +134,8 @@ class SampleFinder {
   }
 
  private:
-  // With |dx|, |dy| <= 2^14 and texels of at most 2^11 sub-texels, an edge function over its triangle's box and 8 columns more is below
-  // 2·2^28 + 2^14·2^14 < 2^30.
+  // With |dx|, |dy| and |step_x| / 2^11 of at most 2^14 sub-texels: over the triangle's box an edge function is below 2·2^28, and 8 columns
+  // more add 8·2^25. Rows need no bound of their own: a box of three columns or more, at most 2^14 wide, has texels of at most 2^13.
   static bool is_small(const TileEdges& edges) {
     std::int64_t most = 0;
     for (std::size_t k = 0; k < 3; ++k)

@@ -156,7 +156,8 @@ class TileShader {
     return undecided;
   }
 
-  // Undecided texel choices may be true ties, which exact planes decide; each triangle is tried once.
+  // Undecided texel choices may be true ties, which exact planes decide; each triangle is tried once. Targets stored before and after it
+  // agree: both planes enclose the same numbers.
   bool make_exact(const Run& run, LaneMask undecided, const TargetSpec& target) {
     const bool looks_up = target.content == TargetContent::color || target.content == TargetContent::margins;
     if (!looks_up || run.draw->shading == Shading::vertex_color) return false;
