@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,8 @@ class ExactPipeline {
   /// Replaces the flagged texels of a value image by what the integers say.
   void settle(const ExactRecords& records, const DrawList& list, const Frame& frame, const TargetSpec& target, const Image& flags,
               ImageTextures& images, Image& values);
+  /// The same for a list of texels, x | y << 16; program, uniforms and images are bound.
+  void settle_list(std::span<const std::uint32_t> places, Image& values);
   void bind_group(const DrawList& list, const TargetSpec& target, const Draw& draw, ImageTextures& images) const;
   void bind_image(const DrawList& list, std::uint32_t image, int unit, ImageTextures& images) const;
 
