@@ -69,12 +69,10 @@ build_and_draw() {
 with_flag() { printf -- '-DCMAKE_CXX_COMPILER_LAUNCHER=%s;%s' "$source_dir/tests/determinism/with_flag.sh;$1" "$launcher"; }
 
 draw "this build" same "$program" ""
-build_and_draw same g++ "-O0"
 if [ -n "${ETALON_FULL-}" ]; then
   for compiler in g++ clang++; do
     lto=(-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=ON)
     [ "$compiler" = g++ ] || lto+=(-DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld)
-    [ "$compiler" = g++ ] || build_and_draw same "$compiler" "-O0"
     build_and_draw same "$compiler" "-O2"
     build_and_draw same "$compiler" "-O3"
     build_and_draw same "$compiler" "-O2 LTO" "${lto[@]}"
@@ -84,7 +82,9 @@ if [ -n "${ETALON_FULL-}" ]; then
     build_and_draw same "$compiler" "-O3 -march=native no contraction at all" "$(with_flag -ffp-contract=off)"
   done
   if grep -qw fma /proc/cpuinfo; then build_and_draw differs g++ "-O2 -march=native contraction everywhere" "$(with_flag -ffp-contract=fast)"; fi
+  build_and_draw same clang++ "-O0"
 fi
+build_and_draw same g++ "-O0"
 
 awk -F'\t' -v golden="$golden" -v csv="$build_dir/hash_matrix.csv" '
   BEGIN { print "build,evaluation,level,threads,sha256,verdict" >csv }
