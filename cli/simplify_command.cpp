@@ -30,7 +30,7 @@ using validation::grouped;
 struct Options {
   std::string model, output, metric = "qem";
   std::optional<std::int64_t> faces;
-  std::optional<double> ratio, unit;
+  std::optional<double> ratio, unit, weight;
   double min_cosine = simplify::LegalityOptions{}.min_normal_cosine;
   bool refuse_non_manifold = false;
   CommonOptions common;
@@ -132,6 +132,8 @@ int run(const Options& options) {
   apply(options.common);
   if (options.output == "-") throw UsageError("simplify: a model may be several files: expected -o FILE.obj, .ply or .glb");
   if (options.unit && options.metric != "kim") throw UsageError("simplify: --unit is of --metric kim");
+  const bool has_attributes = options.metric == "qem5" || options.metric == "qem6" || options.metric == "hoppe";
+  if (options.weight && !has_attributes) throw UsageError("simplify: --weight is of --metric qem5, qem6 and hoppe");
   if (options.faces.has_value() == options.ratio.has_value()) throw UsageError("simplify: expected one of --faces and --ratio");
   require_writable_file(options.output);
   require_writable_file(options.common.json);
@@ -145,7 +147,8 @@ int run(const Options& options) {
   const SimplifyResult result = naming_the_model(options.model, [&] {
     simplify::SimplifyOptions how;
     how.target_faces = job.target_faces;
-    if (options.metric == "kim") how.metric = simplify::MetricName::kim;
+    how.metric = simplify::metric_named(options.metric);
+    how.attribute_weight = options.weight.value_or(how.attribute_weight);
     how.kim.unit = options.unit.value_or(0);
     how.record_landings = true;
     how.refuse_non_manifold = options.refuse_non_manifold;
@@ -188,10 +191,17 @@ Verb add_simplify(CLI::App& root) {
   app->add_option("--ratio", options->ratio, "Stop at this share of the model's triangles, 0 to 1")
       ->type_name("R")
       ->check(CLI::Range(0.0, 1.0));
-  app->add_option("--metric", options->metric,
-                  "Error metric: qem, the quadric of Garland & Heckbert (default); kim, that of Kim, Choi & Lee for vertex colours")
-      ->type_name("qem|kim")
-      ->check(CLI::IsMember({"qem", "kim"}));
+  app->add_option(
+         "--metric", options->metric,
+         "Error metric: qem, the quadric of Garland & Heckbert (default); qem5 and qem6, with texture coordinates or vertex colours; "
+         "hoppe, vertex colours by gradients; kim, that of Kim, Choi & Lee for vertex colours")
+      ->type_name("qem|qem5|qem6|hoppe|kim")
+      ->check(CLI::IsMember({"qem", "qem5", "qem6", "hoppe", "kim"}));
+  app->add_option(
+         "--weight", options->weight,
+         "For qem5, qem6 and hoppe: how long a difference of 1 in colour or texture is, the model's longest side being 1 (default 1)")
+      ->type_name("W")
+      ->check(CLI::PositiveNumber);
   app->add_option("--unit", options->unit, "For kim: the length in model units that counts as 1 (default: the diagonal / 8000)")
       ->type_name("L")
       ->check(CLI::PositiveNumber);

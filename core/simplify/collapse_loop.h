@@ -3,14 +3,17 @@
 
 #include <array>
 #include <limits>
+#include <span>
 
+#include "core/simplify/collapse_candidate.h"
 #include "core/simplify/collapse_queue.h"
 #include "core/simplify/legality.h"
 
 namespace etalon::simplify {
 
-/// Metric: double cost(u, v) (never NaN), of the states of u and v and the faces of u; void collapse(u, v) (state of v after u went into it); and
-/// kCostsAreLocal: whether cost(u, v) leaves the other faces of u out, so that a vertex that loses a neighbour keeps its other costs.
+/// Metric: double cost(u, v, half-edge between them) (never NaN), of the states of u and v and the faces of u; price(u, candidates), the same for
+/// several; collapse(u, v, edge), the state of v after u went into it, called before the faces change; and kCostsAreLocal: whether a cost leaves
+/// the other faces of u out, so that a vertex that loses a neighbour keeps its other costs.
 ///
 /// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged then; a
 /// refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of the
@@ -52,16 +55,13 @@ class CollapseLoop {
     near_.clear();
     mesh_.for_each_neighbor(step.u, [&](std::uint32_t n, std::uint32_t) { near_.push_back(n); });
     queue_.remove(step.u);
-    metric_.collapse(step.u, step.v);
+    metric_.collapse(step.u, step.v, step.edge);
     mesh_.collapse(step.u, step.edge);
-    // Vertices that lost u as a neighbour: their faces changed.
-    for (const std::uint32_t w : near_)
-      if (w != step.v) refresh(w, step);
     requeue(best_of(step.v));
-    // Those that only see v's new cost: nothing else of theirs has changed.
+    // What was near u is near v now. Vertices that lost u as a neighbour: their faces changed. The others only see v's new cost.
     mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t h) {
       for (const std::uint32_t n : near_)
-        if (n == w) return;
+        if (n == w) return refresh(w, h, step);
       see_new_cost(w, step.v, h);
     });
   }
@@ -82,22 +82,25 @@ class CollapseLoop {
     });
   }
 
+  std::span<const CollapseCandidate> priced(std::uint32_t u) {
+    candidates_.clear();
+    for_each_candidate(u, [&](std::uint32_t v, std::uint32_t h) { candidates_.push_back({v, h}); });
+    metric_.price(u, candidates_);
+    return candidates_;
+  }
+
   [[nodiscard]] QueuedCollapse best_of(std::uint32_t u) {
     refused_[u] = false;
     QueuedCollapse best{std::numeric_limits<double>::infinity(), u, kNone};
-    for_each_candidate(u, [&](std::uint32_t v, std::uint32_t) {
-      const double cost = metric_.cost(u, v);
+    for (const auto& [v, h, cost] : priced(u))
       if (before(cost, v, best.cost, best.target)) best = {cost, u, v};
-    });
     return best;
   }
 
-  [[nodiscard]] QueuedCollapse best_after(const QueuedCollapse& refused) const {
+  [[nodiscard]] QueuedCollapse best_after(const QueuedCollapse& refused) {
     QueuedCollapse best{std::numeric_limits<double>::infinity(), refused.vertex, kNone};
-    for_each_candidate(refused.vertex, [&](std::uint32_t v, std::uint32_t) {
-      const double cost = metric_.cost(refused.vertex, v);
+    for (const auto& [v, h, cost] : priced(refused.vertex))
       if (before(refused.cost, refused.target, cost, v) && before(cost, v, best.cost, best.target)) best = {cost, refused.vertex, v};
-    });
     return best;
   }
 
@@ -109,12 +112,12 @@ class CollapseLoop {
   }
 
   // w's faces changed. Without a refusal, and with its best elsewhere, only the way to v can have become better.
-  void refresh(std::uint32_t w, const Step& step) {
+  void refresh(std::uint32_t w, std::uint32_t h, const Step& step) {
     if constexpr (Metric::kCostsAreLocal) {
       if (!refused_[w] && mesh_.kind(w) == VertexKind::interior && queue_.contains(w)) {
         const QueuedCollapse& entry = queue_.of(w);
         if (entry.target != step.u && entry.target != step.v) {
-          const double cost = metric_.cost(w, step.v);
+          const double cost = metric_.cost(w, step.v, h);
           if (before(cost, step.v, entry.cost, entry.target)) queue_.set({cost, w, step.v});
           return;
         }
@@ -129,7 +132,7 @@ class CollapseLoop {
     if (!refused_[w] && queue_.contains(w)) {
       const QueuedCollapse& entry = queue_.of(w);
       if (entry.target != v) {
-        const double cost = metric_.cost(w, v);
+        const double cost = metric_.cost(w, v, h);
         if (before(cost, v, entry.cost, entry.target)) queue_.set({cost, w, v});
         return;
       }
@@ -143,6 +146,7 @@ class CollapseLoop {
   CollapseQueue queue_;
   std::vector<bool> refused_;  // whether an entry stands behind a refused candidate
   std::vector<std::uint32_t> near_;
+  std::vector<CollapseCandidate> candidates_;
   std::array<std::uint64_t, kRefusalCount> refusals_{};
 };
 

@@ -78,6 +78,16 @@ void CollapseMesh::collapse(std::uint32_t u, const Edge& edge) {
   out_[u] = kNone;
 }
 
+void CollapseMesh::allow_moves() {
+  if (moves_) return;
+  moves_ = true;
+  positions_ = source_->positions;
+  colors_ = source_->colors;
+  if (!source_->has_uv) return;
+  uvs_.reserve(source_->wedge_count());
+  for (const Wedge& wedge : source_->wedges) uvs_.push_back(wedge.uv);
+}
+
 std::string CollapseMesh::violation() const {
   std::vector<std::uint32_t> uses(vertex_capacity(), 0);
   std::uint32_t alive = 0;
@@ -101,7 +111,6 @@ std::string CollapseMesh::violation() const {
       if (start(o) != end(h) || end(o) != start(h)) return fmt::format("half-edges {} and {} join different vertices", h, o);
       if (on_curve(o) != on_curve(h)) return fmt::format("half-edges {} and {}: one side is on a curve", h, o);
       if (!wedges_.empty() && !on_curve(h)) {
-        const auto uv = [&](std::uint32_t at) { return source_->wedges[wedges_[at]].uv; };
         if (uv(h) != uv(next(o)) || uv(next(h)) != uv(o)) return fmt::format("half-edge {}: texture coordinates part beside a curve", h);
       }
     }
@@ -128,7 +137,8 @@ std::string CollapseMesh::violation() const {
 }
 
 std::size_t CollapseMesh::memory_bytes() const {
-  return faces_.size() * sizeof(Face) + (wedges_.size() + out_.size() + extra_origin_.size()) * sizeof(std::uint32_t) + kinds_.size();
+  return faces_.size() * sizeof(Face) + (wedges_.size() + out_.size() + extra_origin_.size()) * sizeof(std::uint32_t) + kinds_.size() +
+         positions_.size() * sizeof(Vec3f) + colors_.size() * sizeof(Vec4f) + uvs_.size() * sizeof(Vec2f);
 }
 
 }  // namespace etalon::simplify

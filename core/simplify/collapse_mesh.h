@@ -1,5 +1,5 @@
 // The connectivity that half-edge collapses change: triangles in flat arrays, each half-edge knowing the one across it.
-// Does not: judge a collapse (legality.h), price it (qem_metric.h), or move a vertex.
+// Does not: judge a collapse (legality.h), price it (qem_metric.h), or choose where a vertex moves (placement.h).
 #pragma once
 
 #include <array>
@@ -65,9 +65,22 @@ class CollapseMesh {
   [[nodiscard]] std::uint32_t origin(std::uint32_t v) const {
     return v < source_->vertex_count() ? v : extra_origin_[v - source_->vertex_count()];
   }
-  [[nodiscard]] const Vec3f& position(std::uint32_t v) const { return source_->positions[origin(v)]; }
+  [[nodiscard]] const Vec3f& position(std::uint32_t v) const { return (moves_ ? positions_ : source_->positions)[origin(v)]; }
+  /// Only where the source has colours.
+  [[nodiscard]] const Vec4f& color(std::uint32_t v) const { return (moves_ ? colors_ : source_->colors)[origin(v)]; }
   /// Wedge at the start of a half-edge.
   [[nodiscard]] std::uint32_t wedge(std::uint32_t h) const { return wedges_[h]; }
+  [[nodiscard]] bool textured() const { return !wedges_.empty(); }
+  /// Texture coordinate of a wedge, by its index in the source.
+  [[nodiscard]] const Vec2f& uv_of_wedge(std::uint32_t w) const { return moves_ ? uvs_[w] : source_->wedges[w].uv; }
+  [[nodiscard]] const Vec2f& uv(std::uint32_t h) const { return uv_of_wedge(wedges_[h]); }
+
+  /// From now on positions, colours and texture coordinates are this mesh's own and may be moved: 12 to 36 bytes a vertex.
+  void allow_moves();
+  void move(std::uint32_t v, const Vec3f& position) { positions_[origin(v)] = position; }
+  void set_color(std::uint32_t v, const Vec4f& color) { colors_[origin(v)] = color; }
+  void set_uv(std::uint32_t wedge, const Vec2f& uv) { uvs_[wedge] = uv; }
+  [[nodiscard]] bool moves_allowed() const { return moves_; }
 
   /// First outgoing half-edge, counter-clockwise; on a boundary the one without a face on its right.
   [[nodiscard]] std::uint32_t first_out(std::uint32_t v) const { return out_[v]; }
@@ -134,6 +147,10 @@ class CollapseMesh {
   std::vector<VertexKind> kinds_;
   std::vector<std::uint32_t> extra_origin_;
   std::uint32_t face_count_ = 0;
+  bool moves_ = false;
+  std::vector<Vec3f> positions_;  // #V of the source, where moves are allowed; likewise the next two
+  std::vector<Vec4f> colors_;
+  std::vector<Vec2f> uvs_;  // #W of the source, with uv
 };
 
 }  // namespace etalon::simplify

@@ -28,14 +28,15 @@ void extract(const CollapseMesh& triangles, SimplifyResult& result) {
   for (std::uint32_t v = 0; v < source.vertex_count(); ++v) {
     if (!vertex_used[v]) continue;
     new_vertex[v] = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.push_back(source.positions[v]);
-    if (!source.colors.empty()) mesh.colors.push_back(source.colors[v]);
+    mesh.positions.push_back(triangles.position(v));
+    if (!source.colors.empty()) mesh.colors.push_back(triangles.color(v));
     result.source_vertex.push_back(VertexId(v));
   }
   for (std::uint32_t w = 0; w < source.wedge_count(); ++w) {
     if (!wedge_used[w]) continue;
     new_wedge[w] = static_cast<std::uint32_t>(mesh.wedges.size());
-    mesh.wedges.push_back({VertexId(new_vertex[source.wedges[w].vertex.index]), source.wedges[w].uv});
+    mesh.wedges.push_back(
+        {VertexId(new_vertex[source.wedges[w].vertex.index]), source.has_uv ? triangles.uv_of_wedge(w) : source.wedges[w].uv});
     result.source_wedge.push_back(WedgeId(w));
   }
   mesh.faces.reserve(triangles.face_count());

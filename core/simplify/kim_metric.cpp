@@ -59,8 +59,8 @@ double KimMetric::color_error(std::uint32_t u, std::uint32_t v) const {
   return sum * length_;
 }
 
-void KimMetric::collapse(std::uint32_t u, std::uint32_t v) {
-  qem_.collapse(u, v);
+void KimMetric::collapse(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) {
+  qem_.collapse(u, v, edge);
   importance_[v] = static_cast<float>(static_cast<double>(importance_[u]) + importance_[v]);
   largest_[v] = std::max(largest_[u], largest_[v]);
 }

@@ -16,7 +16,6 @@ struct KimOptions {
 /// paper; after a collapse the larger of both; no cost reads it). All arithmetic in double.
 class KimMetric {
  public:
-  static constexpr std::size_t kStateBytes = QemMetric::kStateBytes + 2 * sizeof(float);
   /// Equation 16 sums over the neighbours of u: its costs change whenever its faces do.
   static constexpr bool kCostsAreLocal = false;
 
@@ -27,14 +26,24 @@ class KimMetric {
   [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v) const {
     return (1 + qem_.cost(u, v) * length4_) * (1 + static_cast<double>(importance_[u])) * (1 + color_error(u, v));
   }
-  [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v) const { return qem_.squared_distance(u, v); }
+  [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v, std::uint32_t) const { return cost(u, v); }
+  void price(std::uint32_t u, std::span<CollapseCandidate> candidates) const {
+    for (CollapseCandidate& candidate : candidates) candidate.cost = cost(u, candidate.target);
+  }
+  /// Of the quadrics alone.
+  [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v, double) const {
+    return qem_.squared_distance(u, v, qem_.cost(u, v));
+  }
 
   /// I(v) (eqs. 14, 15).
   [[nodiscard]] double importance(std::uint32_t v) const { return importance_[v]; }
   /// C(u→v) (eq. 16, its last factor read as ‖v1 − vi‖), over the neighbours that u has now.
   [[nodiscard]] double color_error(std::uint32_t u, std::uint32_t v) const;
 
-  void collapse(std::uint32_t u, std::uint32_t v);
+  void collapse(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge);
+  [[nodiscard]] std::size_t state_bytes() const {
+    return qem_.state_bytes() + importance_.size() * sizeof(importance_[0]) + largest_.size() * sizeof(largest_[0]);
+  }
 
  private:
   [[nodiscard]] double color_distance(std::uint32_t a, std::uint32_t b) const;

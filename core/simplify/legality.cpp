@@ -109,7 +109,7 @@ bool Legality::flips_in_space(std::uint32_t u, std::uint32_t v, const CollapseMe
 }
 
 bool Legality::flips_in_texture(std::uint32_t u, const CollapseMesh::Edge& edge) const {
-  const auto uv = [&](std::uint32_t at) -> const Vec2f& { return mesh_.source().wedges[mesh_.wedge(at)].uv; };
+  const auto uv = [&](std::uint32_t at) -> const Vec2f& { return mesh_.uv(at); };
   // As CollapseMesh::collapse: v's left wedge counter-clockwise up to the other curve edge of u, its right one behind.
   const Vec2f* right = edge.right != kNone ? &uv(edge.right) : nullptr;
   const Vec2f* target = edge.left != kNone ? &uv(CollapseMesh::next(edge.left)) : right;

@@ -2,21 +2,19 @@
 // [Garland & Heckbert 1997]; [Kim, Choi & Lee 2008, eqs. 1-9].
 #pragma once
 
+#include <span>
+
+#include "core/simplify/collapse_candidate.h"
+#include "core/simplify/curve_planes.h"
+#include "core/simplify/placement.h"
 #include "core/simplify/quadric.h"
-#include "core/simplify/unit_positions.h"
 
 namespace etalon::simplify {
-
-struct QemOptions {
-  /// Weights of the planes that stand perpendicular on faces along curves, times the squared length of the edge: what keeps borders in place.
-  double boundary_weight = 10, seam_weight = 1;
-};
 
 /// State: 10 float32 a vertex, measured from the vertex itself in the unit cube and rounded once a collapse; all arithmetic in double.
 /// Measured so, a vertex's own planes all pass through d = 0: b and c start as exact zeros, and nothing cancels.
 class QemMetric {
  public:
-  static constexpr std::size_t kStateBytes = sizeof(Quadric3<float>);
   /// The cost of u→v is of the states of u and v alone (collapse_loop.h).
   static constexpr bool kCostsAreLocal = true;
 
@@ -27,15 +25,33 @@ class QemMetric {
     const double q = evaluate(quadrics_[u], difference(u, v)) + quadrics_[v].c;
     return q > 0 ? q : 0;
   }
+  [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v, std::uint32_t) const { return cost(u, v); }
+  void price(std::uint32_t u, std::span<CollapseCandidate> candidates) const {
+    for (CollapseCandidate& candidate : candidates) candidate.cost = cost(u, candidate.target);
+  }
 
-  /// cost() as a squared length of the unit cube: the weighted mean squared distance of v to the planes of both.
-  [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v) const {
+  /// A cost as a squared length of the unit cube: the weighted mean squared distance of v to the planes of both.
+  [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v, double cost) const {
     const double weight = total_weight(quadrics_[u]) + total_weight(quadrics_[v]);
-    return weight > 0 ? cost(u, v) / weight : 0;
+    return weight > 0 ? cost / weight : 0;
   }
 
   /// v takes over the planes of u.
-  void collapse(std::uint32_t u, std::uint32_t v) { quadrics_[v] = rounded(sum(quadrics_[v], moved(quadrics_[u], difference(u, v)))); }
+  void collapse(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge&) {
+    quadrics_[v] = rounded(sum(quadrics_[v], moved(quadrics_[u], difference(u, v))));
+  }
+
+  /// Where Q_u + Q_v is least (eq. 9's minimum, −A⁻¹b), the metric's own part of a full-edge collapse.
+  [[nodiscard]] Placement place(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge&) const {
+    const Quadric3<double> merged = sum(quadrics_[v], moved(quadrics_[u], difference(u, v)));
+    return place_vertex(places_[v], places_[u], std::span<const Quadric3<double>>(&merged, 1), {}, NoAttributes{});
+  }
+  void merge(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge&, const Placement& placement) {
+    const Quadric3<double> merged = sum(quadrics_[v], moved(quadrics_[u], difference(u, v)));
+    quadrics_[v] = rounded(moved(merged, difference_of(places_[v], placement.at)));
+  }
+
+  [[nodiscard]] std::size_t state_bytes() const { return quadrics_.size() * sizeof(quadrics_[0]); }
 
  private:
   [[nodiscard]] Vec3d difference(std::uint32_t u, std::uint32_t v) const { return difference_of(places_[u], places_[v]); }

@@ -9,7 +9,10 @@
 #include "core/base/float_environment.h"
 #include "core/simplify/collapse_loop.h"
 #include "core/simplify/extract.h"
+#include "core/simplify/hoppe_metric.h"
 #include "core/simplify/landing_tracker.h"
+#include "core/simplify/qem5_metric.h"
+#include "core/simplify/qem6_metric.h"
 
 namespace etalon::simplify {
 
@@ -33,6 +36,17 @@ void require_valid(const Mesh& mesh, const SimplifyOptions& options) {
     for (const WedgeId w : mesh.faces[f])
       if (w.index >= mesh.wedge_count())
         throw InputError(fmt::format("face {}: wedge: expected below {}, got {}", f, mesh.wedge_count(), w.index));
+  const bool by_color = options.metric == MetricName::qem6 || options.metric == MetricName::hoppe || options.metric == MetricName::kim;
+  if (by_color && mesh.colors.empty())
+    throw InputError(fmt::format("metric {}: expected vertex colours, got none", to_string(options.metric)));
+  if (options.metric == MetricName::qem5 && !mesh.has_uv) throw InputError("metric qem5: expected texture coordinates, got none");
+  for (std::size_t v = 0; v < mesh.colors.size(); ++v) {
+    const Vec4f& c = mesh.colors[v];
+    if (by_color && !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z)))
+      throw InputError(fmt::format("vertex {}: colour: expected finite numbers, got {} {} {}", v, c.x, c.y, c.z));
+  }
+  if (!(options.attribute_weight > 0) || std::isinf(options.attribute_weight))
+    throw InputError(fmt::format("attribute weight: expected a positive number, got {}", options.attribute_weight));
   for (const VertexId v : options.locked)
     if (v.index >= mesh.vertex_count())
       throw InputError(fmt::format("locked vertex: expected below {}, got {}", mesh.vertex_count(), v.index));
@@ -88,7 +102,7 @@ void run(CollapseMesh& mesh, const UnitPositions& positions, Metric& metric, con
       break;
     }
     result.max_cost = std::max(result.max_cost, step.cost);
-    squared_error = std::max(squared_error, metric.squared_distance(step.u, step.v));
+    squared_error = std::max(squared_error, metric.squared_distance(step.u, step.v, step.cost));
     if (options.before_collapse) options.before_collapse(mesh, {step.u, step.v, step.edge, step.cost});
     if (tracker) tracker->before(step.u, step.edge);
     loop.apply(step);
@@ -99,11 +113,32 @@ void run(CollapseMesh& mesh, const UnitPositions& positions, Metric& metric, con
   }
   result.error = std::sqrt(squared_error) * positions.unit;
   result.refusals = loop.refusals();
-  result.state_bytes_per_vertex = Metric::kStateBytes;
+  result.state_bytes = metric.state_bytes();
+  result.state_bytes_per_vertex = (result.state_bytes + mesh.vertex_capacity() - 1) / mesh.vertex_capacity();
   if (tracker) result.landings = tracker->landings();
 }
 
 }  // namespace
+
+const char* to_string(MetricName metric) {
+  switch (metric) {
+    case MetricName::qem: return "qem";
+    case MetricName::qem5: return "qem5";
+    case MetricName::qem6: return "qem6";
+    case MetricName::hoppe: return "hoppe";
+    case MetricName::kim: return "kim";
+  }
+  return "";
+}
+
+MetricName metric_named(const std::string& name) {
+  std::string known;
+  for (const MetricName metric : kMetricNames) {
+    if (name == to_string(metric)) return metric;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", to_string(metric));
+  }
+  throw InputError(fmt::format("metric: expected one of {}, got {}", known, name));
+}
 
 const char* to_string(StopReason reason) { return reason == StopReason::faces ? "faces" : "exhausted"; }
 
@@ -116,12 +151,32 @@ SimplifyResult simplify_mesh(const Mesh& mesh, const SimplifyOptions& options) {
   result.repair = triangles.repair();
   count_kinds(triangles, result);
   const UnitPositions positions = unit_positions(triangles);
-  if (options.metric == MetricName::qem) {
-    QemMetric metric(triangles, positions, options.qem);
-    run(triangles, positions, metric, options, result);
-  } else {
-    KimMetric metric(triangles, positions, options.qem, options.kim);
-    run(triangles, positions, metric, options, result);
+  switch (options.metric) {
+    case MetricName::qem: {
+      QemMetric metric(triangles, positions, options.qem);
+      run(triangles, positions, metric, options, result);
+      break;
+    }
+    case MetricName::qem5: {
+      Qem5Metric metric(triangles, positions, options.qem, options.attribute_weight);
+      run(triangles, positions, metric, options, result);
+      break;
+    }
+    case MetricName::qem6: {
+      Qem6Metric metric(triangles, positions, options.qem, options.attribute_weight);
+      run(triangles, positions, metric, options, result);
+      break;
+    }
+    case MetricName::hoppe: {
+      HoppeMetric metric(triangles, positions, options.qem, options.attribute_weight);
+      run(triangles, positions, metric, options, result);
+      break;
+    }
+    case MetricName::kim: {
+      KimMetric metric(triangles, positions, options.qem, options.kim);
+      run(triangles, positions, metric, options, result);
+      break;
+    }
   }
   extract(triangles, result);
   if (options.record_landings) measure_landings(mesh, result);

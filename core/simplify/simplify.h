@@ -13,9 +13,16 @@
 namespace etalon::simplify {
 
 enum class MetricName : std::uint8_t {
-  qem,  ///< position (qem_metric.h)
-  kim,  ///< position and vertex colour (kim_metric.h)
+  qem,    ///< position (qem_metric.h)
+  qem5,   ///< position and texture coordinate (qem5_metric.h)
+  qem6,   ///< position and vertex colour (qem6_metric.h)
+  hoppe,  ///< position and vertex colour by gradients (hoppe_metric.h)
+  kim,    ///< position and vertex colour (kim_metric.h)
 };
+inline constexpr std::array kMetricNames{MetricName::qem, MetricName::qem5, MetricName::qem6, MetricName::hoppe, MetricName::kim};
+[[nodiscard]] const char* to_string(MetricName metric);
+/// InputError for a name that is none.
+[[nodiscard]] MetricName metric_named(const std::string& name);
 
 /// One collapse as it happens, before the mesh changes.
 struct CollapseEvent {
@@ -30,6 +37,8 @@ struct SimplifyOptions {
   std::vector<VertexId> locked;      ///< vertices that stay where they are; others may still collapse into them
   bool refuse_non_manifold = false;  ///< InputError for an input that is no oriented manifold, instead of locking those places
   bool record_landings = false;      ///< fill SimplifyResult::landings; at 10 % about twice the time
+  /// For qem5, qem6, hoppe: how long a difference of 1 in colour or texture coordinate is, the longest side of the model's box being 1.
+  double attribute_weight = 1;
   QemOptions qem;
   KimOptions kim;
   LegalityOptions legality;
@@ -61,7 +70,8 @@ struct SimplifyResult {
   std::array<std::uint64_t, kRefusalCount> refusals{};                         ///< candidates refused when they were the least, by Refusal
   std::size_t interior_vertices = 0, curve_vertices = 0, locked_vertices = 0;  ///< of the input, by kind (VertexKind)
   InputRepair repair;
-  std::size_t state_bytes_per_vertex = 0;  ///< of the metric
+  std::size_t state_bytes = 0;             ///< of the metric, measured
+  std::size_t state_bytes_per_vertex = 0;  ///< state_bytes over the vertices of the engine, rounded up
   std::vector<Landing> landings;           ///< #V of the input, on `mesh`; empty unless recorded
   /// Largest distance of a vertex of the input to its landing: no vertex is farther from `mesh` than that. Nothing unless landings are recorded.
   std::optional<double> distance_max;

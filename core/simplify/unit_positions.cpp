@@ -15,6 +15,7 @@ UnitPositions unit_positions(const CollapseMesh& mesh) {
   UnitPositions result;
   result.unit = std::ldexp(1.0, exponent);
   const double scale = std::ldexp(1.0, -exponent);
+  if (longest > 0) result.longest = longest * scale;
   result.at.resize(mesh.vertex_capacity());
   for (std::uint32_t v = 0; v < mesh.vertex_capacity(); ++v) {
     const Vec3f& p = mesh.position(v);

@@ -12,7 +12,8 @@ namespace etalon::simplify {
 /// (coordinates below 2^-126 apart). A mesh of one point has scale 1.
 struct UnitPositions {
   std::vector<Vec3f> at;
-  double unit = 1;  ///< model length of a scaled length of 1: a power of two
+  double unit = 1;     ///< model length of a scaled length of 1: a power of two
+  double longest = 1;  ///< scaled length of the box's longest side; 1 for a mesh of one point
 };
 
 [[nodiscard]] UnitPositions unit_positions(const CollapseMesh& mesh);

@@ -107,6 +107,16 @@ TEST_CASE("simplify: --metric kim on vertex colours") {
   folder.file("square.obj", square_obj());
   check_refused({"simplify", "square.obj", "--faces", "1", "--metric", "kim", "-o", "a.ply"}, 4, folder,
                 "square.obj: metric kim: expected vertex colours, got none");
+  for (const std::string metric : {"qem5", "qem6", "hoppe"}) {
+    CAPTURE(metric);
+    const bool uv = metric == "qem5";
+    const CommandResult ran = run_etalon({"simplify", uv ? "square.obj" : "board.obj", "--faces", uv ? "2" : "20", "--metric", metric,
+                                          "--weight", "0.5", "-o", uv ? "m.obj" : "m.ply", "--json", "-"},
+                                         {.folder = folder.path()});
+    REQUIRE(ran.exit_code == 0);
+    CHECK(checked_document(ran, "simplify.json")["metric"] == metric);
+  }
+  check_refused({"simplify", "square.obj", "--faces", "1", "--weight", "1", "-o", "a.ply"}, 64, folder, "--weight is of");
   check_refused({"simplify", "square.obj", "--faces", "1", "--unit", "1", "-o", "a.ply"}, 64, folder, "--unit is of --metric kim");
   check_refused({"simplify", "square.obj", "--faces", "1", "--metric", "kim", "--unit", "0", "-o", "a.ply"}, 64, folder, "unit");
 }

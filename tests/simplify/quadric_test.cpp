@@ -42,7 +42,7 @@ TEST_CASE("the vertices of a cube: three planes, no error where they are; the co
   const QemMetric metric(mesh, positions, {.boundary_weight = 0, .seam_weight = 0});
   // The origin's planes x = 0, y = 0, z = 0 with area ½ each; vertex 1 is off the first by 1.
   CHECK(metric.cost(0, 1) == 0.5);
-  CHECK(metric.squared_distance(0, 1) == 0.5 / 2.5);  // weights 1.5 and 1
+  CHECK(metric.squared_distance(0, 1, 0.5) == 0.5 / 2.5);  // weights 1.5 and 1
   // Vertex 1 is on y = 0 and z = 0, as the origin is.
   CHECK(metric.cost(1, 0) == 0);
 }
@@ -55,7 +55,7 @@ TEST_CASE("costs after collapses are those of the planes gathered, within the ro
   // 0 into a neighbour, that one into a third: the cost of the second step is about the quadrics summed in double.
   const std::uint32_t a = 0, b = mesh.end(mesh.first_out(a));
   const double direct = metric.cost(a, b);
-  metric.collapse(a, b);
+  metric.collapse(a, b, mesh.find_edge(a, b));
   std::uint32_t c = kNone;
   mesh.for_each_neighbor(b, [&](std::uint32_t n, std::uint32_t) {
     if (n != a && c == kNone) c = n;

@@ -9,6 +9,9 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/simplify/collapse_loop.h"
+#include "core/simplify/hoppe_metric.h"
+#include "core/simplify/qem5_metric.h"
+#include "core/simplify/qem6_metric.h"
 #include "tests/simplify/sample_meshes.h"
 
 using namespace etalon;
@@ -30,7 +33,7 @@ Least least_of_all(const CollapseMesh& mesh, const Metric& metric, Legality& leg
     if (!mesh.vertex_alive(u) || mesh.kind(u) == VertexKind::locked) continue;
     mesh.for_each_neighbor(u, [&](std::uint32_t v, std::uint32_t h) {
       if (mesh.kind(u) == VertexKind::curve && !mesh.on_curve(h)) return;
-      const double cost = metric.cost(u, v);
+      const double cost = metric.cost(u, v, h);
       if (cost > least.cost || (cost == least.cost && (u > least.u || (u == least.u && v > least.v)))) return;
       if (legality.check(u, mesh.edge_from(u, h)) == Refusal::none) least = {cost, u, v};
     });
@@ -72,19 +75,20 @@ std::string message_of(const Mesh& mesh, const SimplifyOptions& options) {
 TEST_CASE("each step is the least legal one of all, and keeps every invariant, down to the last") {
   for (NamedMesh sample : sample_meshes()) {
     CAPTURE(sample.name);
-    {
-      CollapseMesh mesh(sample.mesh, {});
-      const UnitPositions positions = unit_positions(mesh);
-      QemMetric metric(mesh, positions, {});
-      follow(mesh, positions, metric);
-    }
     Rng rng(17);
     for (std::size_t v = 0; v < sample.mesh.vertex_count(); ++v)
       sample.mesh.colors.push_back({rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0, 1), 1});
-    CollapseMesh mesh(sample.mesh, {});
-    const UnitPositions positions = unit_positions(mesh);
-    KimMetric metric(mesh, positions, {}, {.unit = 0.1});
-    follow(mesh, positions, metric);
+    const auto with = [&](const auto& make) {
+      CollapseMesh mesh(sample.mesh, {});
+      const UnitPositions positions = unit_positions(mesh);
+      auto metric = make(mesh, positions);
+      follow(mesh, positions, metric);
+    };
+    with([](const auto& mesh, const auto& positions) { return QemMetric(mesh, positions, {}); });
+    with([](const auto& mesh, const auto& positions) { return KimMetric(mesh, positions, {}, {.unit = 0.1}); });
+    with([](const auto& mesh, const auto& positions) { return Qem6Metric(mesh, positions, {}, 1); });
+    with([](const auto& mesh, const auto& positions) { return HoppeMetric(mesh, positions, {}, 0.5); });
+    if (sample.mesh.has_uv) with([](const auto& mesh, const auto& positions) { return Qem5Metric(mesh, positions, {}, 1); });
   }
 }
 
