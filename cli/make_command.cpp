@@ -14,47 +14,90 @@
 #include "cli/model_input.h"
 #include "cli/usage_error.h"
 #include "core/io/mesh_file.h"
+#include "core/procedural/duck.h"
 #include "core/procedural/head.h"
+#include "core/procedural/knot.h"
+#include "core/procedural/monkey.h"
+#include "core/procedural/statue.h"
 #include "core/procedural/swirl.h"
 #include "validation/report/json_report.h"
 
 namespace etalon::cli {
 namespace {
 
-// What core/procedural takes.
-constexpr int kFewestSwirlFaces = 2;
-constexpr int kFewestHeadFaces = 72;
-constexpr int kMostFaces = 2'000'000;
-
 struct MakeOptions {
   std::string what;
   std::string output;
   std::optional<int> faces;
-  int texture_size = 1024;
+  std::optional<int> texture_size;
+  bool open = false;
   CommonOptions common;
 };
 
-procedural::Model make_model(const MakeOptions& options) {
-  const int fewest = options.what == "swirl" ? kFewestSwirlFaces : kFewestHeadFaces;
-  if (options.faces && (*options.faces < fewest || *options.faces > kMostFaces))
-    throw UsageError(fmt::format("--faces: {}: expected {} to {}, got {}", options.what, fewest, kMostFaces, *options.faces));
-  if (options.what == "swirl") {
-    procedural::SwirlOptions swirl{.faces = 7688, .texture_size = options.texture_size};
-    if (options.faces) swirl.faces = *options.faces;
-    return procedural::make_swirl(swirl);
-  }
-  procedural::HeadOptions head{.faces = 7685, .texture_size = options.texture_size};
-  if (options.faces) head.faces = *options.faces;
-  return procedural::make_head(head);
+/// What core/procedural takes, by name.
+struct Kind {
+  const char* name;
+  int fewest, most, normal;
+  bool even;      ///< only even counts
+  bool textured;  ///< else coloured by vertex
+};
+constexpr Kind kKinds[] = {
+    {"swirl", 2, 2'000'000, 7'688, false, true},          {"head", 72, 2'000'000, 7'685, false, true},
+    {"monkey", 20'000, 10'000'000, 101'002, true, false}, {"duck", 2'000, 10'000'000, 166'278, false, false},
+    {"statue", 40'000, 10'000'000, 200'000, true, false}, {"knot", 250, 10'000'000, 100'000, false, false},
+};
+
+const Kind& kind_of(const std::string& name) {
+  for (const Kind& kind : kKinds)
+    if (name == kind.name) return kind;
+  throw UsageError("make: unknown model " + name);
 }
 
-nlohmann::ordered_json document_of(const MakeOptions& options, const procedural::Model& model) {
+/// A mesh, and its texture where it has one.
+struct Made {
+  Mesh mesh;
+  std::optional<Image> texture;
+};
+
+procedural::DuckOptions duck_options(const MakeOptions& options) {
+  if (!options.faces) return procedural::duck_of_paper(options.open);
+  return procedural::duck_of_faces(*options.faces, options.open);
+}
+
+Made make_model(const MakeOptions& options, const procedural::ProcedureProgress& progress) {
+  const Kind& kind = kind_of(options.what);
+  const int faces = options.faces.value_or(kind.normal);
+  if (faces < kind.fewest || faces > kind.most)
+    throw UsageError(fmt::format("--faces: {}: expected {} to {}, got {}", options.what, kind.fewest, kind.most, faces));
+  if (kind.even && faces % 2 != 0) throw UsageError(fmt::format("--faces: {}: expected an even number, got {}", options.what, faces));
+  if (options.texture_size && !kind.textured)
+    throw UsageError(fmt::format("--texture-size: {} is coloured by vertex and has no texture", options.what));
+  if (options.open && options.what != "duck") throw UsageError("--open is of duck");
+  const int texture_size = options.texture_size.value_or(1024);
+  if (options.what == "swirl") {
+    procedural::Model model = procedural::make_swirl({.faces = faces, .texture_size = texture_size});
+    return {std::move(model.mesh), std::move(model.texture)};
+  }
+  if (options.what == "head") {
+    procedural::Model model = procedural::make_head({.faces = faces, .texture_size = texture_size});
+    return {std::move(model.mesh), std::move(model.texture)};
+  }
+  if (options.what == "monkey") return {procedural::make_monkey({.faces = faces, .progress = progress}), {}};
+  if (options.what == "statue") return {procedural::make_statue({.faces = faces, .progress = progress}), {}};
+  if (options.what == "knot") return {procedural::make_knot(procedural::knot_of_faces(faces)), {}};
+  procedural::DuckOptions duck = duck_options(options);
+  duck.progress = progress;
+  return {procedural::make_duck(duck), {}};
+}
+
+nlohmann::ordered_json document_of(const MakeOptions& options, const Made& made) {
   nlohmann::ordered_json document = validation::document_head("make", {});
-  document["model"] = model.name;
-  document["vertices"] = model.mesh.vertex_count();
-  document["faces"] = model.mesh.face_count();
-  document["mesh_sha256"] = mesh_sha256(model.mesh);
-  document["texture"] = {{"width", model.texture.width()}, {"height", model.texture.height()}, {"sha256", model.texture.sha256()}};
+  document["model"] = options.what;
+  document["vertices"] = made.mesh.vertex_count();
+  document["faces"] = made.mesh.face_count();
+  document["mesh_sha256"] = mesh_sha256(made.mesh);
+  if (made.texture)
+    document["texture"] = {{"width", made.texture->width()}, {"height", made.texture->height()}, {"sha256", made.texture->sha256()}};
   validation::RunInfo run = validation::current_run(options.common.start);
   run.paths = {options.output};
   document["run"] = validation::to_json(run);
@@ -67,21 +110,22 @@ int run_make(const MakeOptions& options) {
   require_writable_file(options.output);
   require_writable_file(options.common.json);
   Console console(console_options(options.common));
-  const procedural::Model model = make_model(options);
-  const std::vector<io::Material> materials{{.name = model.name, .texture_path = {}, .texture = model.texture}};
+  const Made made = make_model(options, [&](int done, int total) { console.progress("making the " + options.what, done, total); });
+  std::vector<io::Material> materials;
+  if (made.texture) materials.push_back({.name = options.what, .texture_path = {}, .texture = *made.texture});
   const std::vector<std::filesystem::path> outputs = io::mesh_output_files(options.output, materials);
   CallFiles files;
   for (const std::filesystem::path& path : outputs) files.add_output(path.string(), "-o");
   files.add_output(options.common.json, "--json");
   {
     const FinishWriting finish;
-    io::write_mesh(options.output, model.mesh, materials);
+    io::write_mesh(options.output, made.mesh, materials);
   }
-  console.line(fmt::format("{}: {} with {} vertices, {}, texture {}x{}", options.output, model.name,
-                           validation::grouped(model.mesh.vertex_count()), counted(model.mesh.face_count(), "face"), model.texture.width(),
-                           model.texture.height()));
+  const std::string looks = made.texture ? fmt::format("texture {}x{}", made.texture->width(), made.texture->height()) : "vertex colours";
+  console.line(fmt::format("{}: {} with {} vertices, {}, {}", options.output, options.what, validation::grouped(made.mesh.vertex_count()),
+                           counted(made.mesh.face_count(), "face"), looks));
   for (const std::filesystem::path& path : outputs) console.line("wrote " + path.string());
-  write_document(options.common, document_of(options, model));
+  write_document(options.common, document_of(options, made));
   if (!options.common.json.empty() && options.common.json != "-") console.line("wrote " + options.common.json);
   return kExitDone;
 }
@@ -90,23 +134,27 @@ int run_make(const MakeOptions& options) {
 
 Verb add_make(CLI::App& root) {
   const auto options = std::make_shared<MakeOptions>();
-  CLI::App* app = root.add_subcommand("make", "Write a procedural model and its texture");
-  app->add_option("what", options->what, "swirl: the curved grid of a swirled texture; head: the embedded default")
+  CLI::App* app = root.add_subcommand("make", "Write a procedural model");
+  app->add_option("what", options->what,
+                  "With a texture: swirl, the curved grid of a swirled texture; head, the embedded default. With vertex colours: monkey, a "
+                  "mandrill's head; duck, a wooden drake; statue, a robed figure in marble; knot, a displaced torus knot")
       ->required()
-      ->check(CLI::IsMember({"swirl", "head"}))
-      ->type_name("swirl|head");
-  app->add_option("--faces", options->faces,
-                  "About how many triangles, up to 2,000,000: swirl from 2 (default 7,688), head from 72 (default 7,685)")
+      ->check(CLI::IsMember({"swirl", "head", "monkey", "duck", "statue", "knot"}))
+      ->type_name("swirl|head|monkey|duck|statue|knot");
+  app->add_option(
+         "--faces", options->faces,
+         "How many triangles: exactly so for monkey (default 101,002) and statue (default 200,000), even numbers; about so for swirl "
+         "(7,688), head (7,685), duck (166,278; open 99,997) and knot (100,000)")
       ->type_name("N");
-  app->add_option("--texture-size", options->texture_size, "Side of the texture in texels (default 1024)")
+  app->add_flag("--open", options->open, "Of the duck: with a hole under its belly, as a scanner leaves it");
+  app->add_option("--texture-size", options->texture_size, "Of swirl and head: side of the texture in texels (default 1024)")
       ->type_name("N")
       ->check(CLI::Range(64, 8192));
-  app->add_option("-o,--output", options->output,
-                  "Model to write, with its texture STEM_texture.png beside it: .obj, .ply; or in one file: .glb")
+  app->add_option("-o,--output", options->output, "Model to write, a texture STEM_texture.png beside it: .obj, .ply; or in one file: .glb")
       ->required()
       ->type_name("FILE")
       ->check(not_empty());
-  add_common_options(*app, options->common, "  etalon make head -o head.obj");
+  add_common_options(*app, options->common, "  etalon make head -o head.obj\n  etalon make statue --faces 2351302 -o statue.ply");
   return {app, [options] { return run_make(*options); }};
 }
 

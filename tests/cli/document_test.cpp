@@ -1,4 +1,6 @@
 // Every JSON document against its schema, and the promise that only `run` may differ between runs.
+#include <cstdlib>
+
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
@@ -24,6 +26,17 @@ json checked_document(const std::vector<std::string>& arguments, const std::stri
 }
 
 }  // namespace
+
+TEST_CASE("make: models with vertex colours") {
+  const ScratchFolder folder;
+  const json duck = checked_document({"make", "duck", "--faces", "3000", "--open", "-o", "duck.ply"}, "make.json", folder);
+  CHECK(duck["model"] == "duck");
+  CHECK(!duck.contains("texture"));
+  CHECK(std::abs(duck["faces"].get<int>() - 3000) < 100);
+  const json knot = checked_document({"make", "knot", "--faces", "1000", "-o", "knot.ply"}, "make.json", folder);
+  CHECK(knot["faces"] == 1000);
+  CHECK(checked_document({"info", "knot.ply"}, "info.json", folder)["mesh"]["faces"] == 1000);
+}
 
 TEST_CASE("make, info, render: documents match their schemas") {
   const ScratchFolder folder;

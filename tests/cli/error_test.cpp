@@ -52,6 +52,10 @@ TEST_CASE("usage: 64") {
   check_refused({"make", "head", "--faces", "71", "-o", "a.obj"}, 64, folder, "expected 72 to 2000000, got 71");
   check_refused({"make", "head", "--faces", "2000001", "-o", "a.obj"}, 64, folder, "got 2000001");
   check_refused({"make", "head", "--faces", "many", "-o", "a.obj"}, 64, folder, "faces");
+  check_refused({"make", "monkey", "--faces", "20001", "-o", "a.ply"}, 64, folder, "expected an even number, got 20001");
+  check_refused({"make", "statue", "--faces", "39998", "-o", "a.ply"}, 64, folder, "expected 40000 to 10000000, got 39998");
+  check_refused({"make", "duck", "--texture-size", "64", "-o", "a.ply"}, 64, folder, "duck is coloured by vertex");
+  check_refused({"make", "knot", "--open", "-o", "a.ply"}, 64, folder, "--open is of duck");
   check_refused({"make", "head", "-o", ""}, 64, folder, "output");
   check_refused({"verify", "--texture", "a.png"}, 64, folder, "--texture needs a MODEL");
   check_refused({"verify", "--flip-v"}, 64, folder, "--flip-v needs a MODEL");

@@ -1,0 +1,11 @@
+// The colours of the procedural statue.
+#pragma once
+
+#include "core/math/vec.h"
+
+namespace etalon::procedural {
+
+/// Display colour in [0, 1]³ of a point on the surface, light included.
+[[nodiscard]] Vec3d statue_color(const Vec3d& surface_point);
+
+}  // namespace etalon::procedural
