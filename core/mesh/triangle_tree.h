@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 
 #include "core/math/nearest_point.h"
 #include "core/mesh/mesh.h"
@@ -18,7 +19,7 @@ struct SurfacePoint {
 };
 
 /// A bounding volume hierarchy of a mesh's faces, four children a node, split at object medians. Queries are const and may run in parallel.
-/// Memory: about 90 bytes a face.
+/// Memory: about 150 bytes a face.
 class TriangleTree {
  public:
   /// InputError where the mesh has no faces, an index is out of range or a position is not finite. Copies what it needs.
@@ -32,8 +33,14 @@ class TriangleTree {
   /// `hint`: an answer to a query nearby, which only saves time.
   [[nodiscard]] SurfacePoint nearest(const Vec3d& p, FaceId hint = {}) const;
 
- private:
+  /// found[i] = nearest(points[i]), to the last bit; points near each other share the way through the tree, so that many at once take a third of the
+  /// time of one by one. `found`: as many as `points`.
+  void nearest(std::span<const Vec3d> points, std::span<SurfacePoint> found) const;
+
   struct Impl;
+
+ private:
+  class Groups;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -52,6 +52,35 @@ TEST_CASE("the tree's answer is every face's, to the last bit: near, far, on the
   }
 }
 
+TEST_CASE("many at once: the same bits as one by one, whatever the points have in common") {
+  Rng rng(7);
+  for (const NamedMesh& sample : sample_meshes()) {
+    CAPTURE(sample.name);
+    const TriangleTree tree(sample.mesh);
+    for (const int kind : {0, 1, 2, 3, 4}) {
+      CAPTURE(kind);
+      std::vector<Vec3d> points;
+      const Vec3d centre = random_point(rng, 2);
+      for (int i = 0; i < 500; ++i) {
+        if (kind == 0) points.push_back(random_point(rng, 1.5));
+        if (kind == 1) points.push_back(centre + random_point(rng, 0x1p-12));
+        if (kind == 2) points.push_back(centre);
+        if (kind == 3) points.push_back(to_double(sample.mesh.positions[rng.below(sample.mesh.vertex_count())]));
+        if (kind == 4) points.push_back(random_point(rng, i % 2 == 0 ? 1 : 0x1p50));
+      }
+      points.resize(points.size() - rng.below(30));
+      std::vector<SurfacePoint> found(points.size());
+      tree.nearest(points, found);
+      for (std::size_t i = 0; i < points.size(); ++i) REQUIRE(same(found[i], ask_every_face(sample.mesh, points[i])));
+    }
+  }
+  const TriangleTree tree(square());
+  tree.nearest(std::span<const Vec3d>(), std::span<SurfacePoint>());
+  std::vector<SurfacePoint> two(2);
+  const std::vector<Vec3d> one(1);
+  CHECK_THROWS_AS(tree.nearest(one, two), InternalError);
+}
+
 TEST_CASE("far from the origin, tiny and huge units: still the same bits") {
   Rng rng(6);
   const Mesh base = bumpy_sphere(5, 0.3f, 1);
@@ -59,10 +88,15 @@ TEST_CASE("far from the origin, tiny and huge units: still the same bits") {
     Mesh mesh = base;
     for (Vec3f& p : mesh.positions) p = p * scale + Vec3f(offset);
     const TriangleTree tree(mesh);
+    std::vector<Vec3d> points;
     for (int i = 0; i < 200; ++i) {
       const Vec3d p = random_point(rng, i % 2 == 0 ? 1.2 : 5) * static_cast<double>(scale) + Vec3d(offset);
       REQUIRE(same(tree.nearest(p), ask_every_face(mesh, p)));
+      points.push_back(p);
     }
+    std::vector<SurfacePoint> found(points.size());
+    tree.nearest(points, found);
+    for (std::size_t i = 0; i < points.size(); ++i) REQUIRE(same(found[i], ask_every_face(mesh, points[i])));
   }
 }
 

@@ -14,7 +14,7 @@ namespace etalon::validation {
 namespace {
 
 /// Blocks between two calls of progress.
-constexpr std::size_t kBatch = 256;
+constexpr std::size_t kBatch = 64;
 
 struct Sums {
   std::uint64_t count = 0;
@@ -36,36 +36,33 @@ struct Sums {
   }
 };
 
-double colour_distance2(const SurfaceSample& sample, const Mesh& to, const SurfacePoint& found) {
+double colour_distance2(const Vec3d& color, const Mesh& to, const SurfacePoint& found) {
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
     const auto at = [&](int corner) { return static_cast<double>(to.colors[to.vertex(found.face, corner).index][k]); };
-    const double d = found.weights.x * at(0) + found.weights.y * at(1) + found.weights.z * at(2) - sample.color[k];
+    const double d = found.weights.x * at(0) + found.weights.y * at(1) + found.weights.z * at(2) - color[k];
     sum += d * d;
   }
   return sum;
 }
 
-Sums measure_block(const SurfaceSamples& samples, std::size_t block, const Mesh& to, const NearestQuery& nearest, bool colours) {
-  std::vector<SurfaceSample> points;
-  samples.append_block(block, points);
+Sums measure_block(const SampleBlock& block, const Mesh& to, const NearestQuery& nearest, bool colours) {
+  std::vector<SurfacePoint> found(block.points.size());
+  nearest(block.points, found);
   Sums sums;
-  FaceId hint;
-  for (const SurfaceSample& sample : points) {
-    const SurfacePoint found = nearest(sample.point, hint);
-    hint = found.face;
-    ++sums.count;
-    sums.sum += std::sqrt(found.distance2);
-    sums.squares += found.distance2;
-    if (found.distance2 > sums.max2) {
-      sums.max2 = found.distance2;
-      sums.max_at = sample.point;
+  sums.count = found.size();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    sums.sum += std::sqrt(found[i].distance2);
+    sums.squares += found[i].distance2;
+    if (found[i].distance2 > sums.max2) {
+      sums.max2 = found[i].distance2;
+      sums.max_at = block.points[i];
     }
     if (colours) {
-      const double d2 = colour_distance2(sample, to, found);
-      sums.colour_sum += std::sqrt(d2);
+      const double d2 = colour_distance2(block.colors[i], to, found[i]), d = std::sqrt(d2);
+      sums.colour_sum += d;
       sums.colour_squares += d2;
-      sums.colour_max = std::max(sums.colour_max, std::sqrt(d2));
+      sums.colour_max = std::max(sums.colour_max, d);
     }
   }
   return sums;
@@ -82,7 +79,7 @@ DirectedDistance measure_direction(const Mesh& from, const Mesh& to, const Neare
   for (std::size_t first = 0; first < blocks.size(); first += kBatch) {
     if (progress) progress(first, blocks.size());
     parallel_for(std::min(kBatch, blocks.size() - first),
-                 [&](std::size_t i) { blocks[first + i] = measure_block(samples, first + i, to, nearest, colours); });
+                 [&](std::size_t i) { blocks[first + i] = measure_block(samples.block(first + i), to, nearest, colours); });
   }
   Sums all;
   for (const Sums& block : blocks) all.add(block);
@@ -115,7 +112,8 @@ SurfaceDistance measure_surfaces(const Mesh& a, const Mesh& b, const MetroOption
       if (options.progress) options.progress(half * total + done, 2 * total);
     };
     return measure_direction(
-        from, to, [&](const Vec3d& p, FaceId hint) { return tree.nearest(p, hint); }, options.samples, progress);
+        from, to, [&](std::span<const Vec3d> points, std::span<SurfacePoint> found) { tree.nearest(points, found); }, options.samples,
+        progress);
   };
   result.forward = direction(a, b, 0);
   result.backward = direction(b, a, 1);

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 #include "core/mesh/triangle_tree.h"
 #include "validation/metrics/surface_samples.h"
@@ -42,8 +43,8 @@ struct MetroOptions {
 /// face for every sample. InputError as TriangleTree, and for samples out of range.
 [[nodiscard]] SurfaceDistance measure_surfaces(const Mesh& a, const Mesh& b, const MetroOptions& options = {});
 
-/// What a sample found on the other surface.
-using NearestQuery = std::function<SurfacePoint(const Vec3d& point, FaceId hint)>;
+/// Fills in what each point found on the other surface; called from several threads.
+using NearestQuery = std::function<void(std::span<const Vec3d> points, std::span<SurfacePoint> found)>;
 /// One direction, the search given by the caller: how tests put a slow judge in the tree's place.
 [[nodiscard]] DirectedDistance measure_direction(const Mesh& from, const Mesh& to, const NearestQuery& nearest, std::uint64_t samples,
                                                  const std::function<void(std::size_t done, std::size_t total)>& progress = {});

@@ -12,11 +12,6 @@ namespace etalon::validation {
 
 namespace {
 
-/// Elements (vertices, edges, faces) in a block.
-constexpr std::size_t kBlockElements = 512;
-
-std::size_t blocks_of(std::size_t elements) { return (elements + kBlockElements - 1) / kBlockElements; }
-
 double length_of(const Mesh& mesh, const VertexPair& edge) {
   return std::sqrt(squared_distance(to_double(mesh.positions[edge.low]), to_double(mesh.positions[edge.high])));
 }
@@ -74,66 +69,61 @@ SurfaceSamples::SurfaceSamples(const Mesh& mesh, std::uint64_t target) : mesh_(m
   face_ends_ = running_shares(mesh.face_count(), for_faces / area, [&](std::size_t f) { return area_of(mesh, f); });
 }
 
-std::size_t SurfaceSamples::block_count() const {
-  return blocks_of(vertices_.size()) + blocks_of(edge_ends_.size()) + blocks_of(face_ends_.size());
-}
-
-void SurfaceSamples::append_block(std::size_t block, std::vector<SurfaceSample>& samples) const {
-  const auto run = [&](std::size_t elements, const auto& append) {
-    const std::size_t first = block * kBlockElements;
-    for (std::size_t i = first; i < std::min(elements, first + kBlockElements); ++i) append(i);
+SampleBlock SurfaceSamples::block(std::size_t b) const {
+  SampleBlock block;
+  std::uint64_t at = b * kBlockSamples;
+  const std::uint64_t end = std::min(count(), at + kBlockSamples);
+  block.points.reserve(end - at);
+  if (!mesh_.colors.empty()) block.colors.reserve(end - at);
+  for (; at < std::min(end, vertex_count()); ++at) add({vertices_[at], vertices_[at], vertices_[at]}, {1, 0, 0}, block);
+  // Samples [at, stop) of those that `ends` shares out, which start at `offset`.
+  const auto run = [&](const std::vector<std::uint64_t>& ends, std::uint64_t offset, const auto& add_some) {
+    const std::uint64_t stop = ends.empty() ? at : std::min(end, offset + ends.back());
+    if (at >= stop) return;
+    auto i = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), at - offset) - ends.begin());
+    for (; at < stop; ++i) {
+      const std::uint64_t first = i > 0 ? ends[i - 1] : 0, last = std::min(ends[i], stop - offset);
+      add_some(i, at - offset - first, last - first);
+      at = std::max(at, offset + last);
+    }
   };
-  if (block < blocks_of(vertices_.size())) {
-    run(vertices_.size(), [&](std::size_t i) { append_vertex(vertices_[i], samples); });
-    return;
-  }
-  block -= blocks_of(vertices_.size());
-  if (block < blocks_of(edge_ends_.size())) {
-    run(edge_ends_.size(), [&](std::size_t i) { append_edge(i, samples); });
-    return;
-  }
-  block -= blocks_of(edge_ends_.size());
-  run(face_ends_.size(), [&](std::size_t i) { append_face(i, samples); });
+  run(edge_ends_, vertex_count(), [&](std::size_t e, std::uint64_t first, std::uint64_t last) { add_edge(e, first, last, block); });
+  run(face_ends_, vertex_count() + edge_count(),
+      [&](std::size_t f, std::uint64_t first, std::uint64_t last) { add_face(f, first, last, block); });
+  return block;
 }
 
-SurfaceSample SurfaceSamples::blend(const std::array<std::uint32_t, 3>& v, const Vec3d& w) const {
+void SurfaceSamples::add(const std::array<std::uint32_t, 3>& v, const Vec3d& w, SampleBlock& block) const {
   const auto mix = [&](const auto& at, int k) {
     return w.x * static_cast<double>(at[v[0]][k]) + w.y * static_cast<double>(at[v[1]][k]) + w.z * static_cast<double>(at[v[2]][k]);
   };
-  SurfaceSample sample;
-  for (int k = 0; k < 3; ++k) {
-    sample.point[k] = mix(mesh_.positions, k);
-    if (!mesh_.colors.empty()) sample.color[k] = mix(mesh_.colors, k);
-  }
-  return sample;
+  block.points.emplace_back(mix(mesh_.positions, 0), mix(mesh_.positions, 1), mix(mesh_.positions, 2));
+  if (!mesh_.colors.empty()) block.colors.emplace_back(mix(mesh_.colors, 0), mix(mesh_.colors, 1), mix(mesh_.colors, 2));
 }
 
-void SurfaceSamples::append_vertex(std::uint32_t vertex, std::vector<SurfaceSample>& samples) const {
-  samples.push_back(blend({vertex, vertex, vertex}, {1, 0, 0}));
-}
-
-void SurfaceSamples::append_edge(std::size_t edge, std::vector<SurfaceSample>& samples) const {
+void SurfaceSamples::add_edge(std::size_t edge, std::uint64_t begin, std::uint64_t end, SampleBlock& block) const {
   const std::uint64_t count = edge_ends_[edge] - (edge > 0 ? edge_ends_[edge - 1] : 0);
-  for (std::uint64_t i = 0; i < count; ++i) {
+  for (std::uint64_t i = begin; i < end; ++i) {
     const double t = static_cast<double>(i + 1) / static_cast<double>(count + 1);
-    samples.push_back(blend({edges_[edge].low, edges_[edge].high, edges_[edge].high}, {1 - t, t, 0}));
+    add({edges_[edge].low, edges_[edge].high, edges_[edge].high}, {1 - t, t, 0}, block);
   }
 }
 
 // The sequence R2 [Roberts 2018]: multiples of 1/p and 1/p², p = 1.3247… the real root of p³ = p + 1, modulo 1, in 64-bit integers; the square
 // is folded along its diagonal onto the triangle.
-void SurfaceSamples::append_face(std::size_t face, std::vector<SurfaceSample>& samples) const {
+void SurfaceSamples::add_face(std::size_t face, std::uint64_t begin, std::uint64_t end, SampleBlock& block) const {
   constexpr std::uint64_t kStepU = 0xC13FA9A902A6328Full, kStepV = 0x91E10DA5C79E7B1Dull;
   const std::array<std::uint32_t, 3> vertices{mesh_.vertex(FaceId(face), 0).index, mesh_.vertex(FaceId(face), 1).index,
                                               mesh_.vertex(FaceId(face), 2).index};
-  for (std::uint64_t i = face > 0 ? face_ends_[face - 1] : 0; i < face_ends_[face]; ++i) {
+  const std::uint64_t before = face > 0 ? face_ends_[face - 1] : 0;
+  for (std::uint64_t i = before + begin; i < before + end; ++i) {
     // 53 bits, centred in their cell, so that no weight is 0.
     double u = (static_cast<double>((i * kStepU) >> 11) + 0.5) * 0x1p-53, v = (static_cast<double>((i * kStepV) >> 11) + 0.5) * 0x1p-53;
     if (u + v > 1) {
       u = 1 - u;
       v = 1 - v;
     }
-    samples.push_back(blend(vertices, {1 - u - v, u, v}));
+    add(vertices, {1 - u - v, u, v}, block);
   }
 }
 

@@ -10,10 +10,13 @@
 
 namespace etalon::validation {
 
-/// One sample: its place and, where the mesh has colours, its colour, both interpolated in double.
-struct SurfaceSample {
-  Vec3d point{0, 0, 0};
-  Vec3d color{0, 0, 0};
+/// Samples in a block; the last one may hold fewer. Figures are sums over blocks, so it is part of their definition.
+inline constexpr std::uint64_t kBlockSamples = 4096;
+
+/// Some samples: their places and, where the mesh has colours, their colours; both interpolated in double.
+struct SampleBlock {
+  std::vector<Vec3d> points;
+  std::vector<Vec3d> colors;  ///< as many as points, or none
 };
 
 /// Which points, decided once: about `target` of them. Every vertex that a face uses is one; what is left of the target is shared out: with s
@@ -30,16 +33,14 @@ class SurfaceSamples {
   [[nodiscard]] std::uint64_t face_count() const { return face_ends_.empty() ? 0 : face_ends_.back(); }
   [[nodiscard]] std::uint64_t count() const { return vertex_count() + edge_count() + face_count(); }
 
-  /// Samples come in blocks that do not depend on threads; neighbours in a block are mostly neighbours in space.
-  [[nodiscard]] std::size_t block_count() const;
-  /// Appends the samples of a block, in their order.
-  void append_block(std::size_t block, std::vector<SurfaceSample>& samples) const;
+  /// Samples are numbered: vertices in order, then edges in order and along each, then faces. Block b holds those from b·kBlockSamples on.
+  [[nodiscard]] std::size_t block_count() const { return static_cast<std::size_t>((count() + kBlockSamples - 1) / kBlockSamples); }
+  [[nodiscard]] SampleBlock block(std::size_t b) const;
 
  private:
-  void append_vertex(std::uint32_t vertex, std::vector<SurfaceSample>& samples) const;
-  void append_edge(std::size_t edge, std::vector<SurfaceSample>& samples) const;
-  void append_face(std::size_t face, std::vector<SurfaceSample>& samples) const;
-  [[nodiscard]] SurfaceSample blend(const std::array<std::uint32_t, 3>& vertices, const Vec3d& weights) const;
+  void add_edge(std::size_t edge, std::uint64_t begin, std::uint64_t end, SampleBlock& block) const;
+  void add_face(std::size_t face, std::uint64_t begin, std::uint64_t end, SampleBlock& block) const;
+  void add(const std::array<std::uint32_t, 3>& vertices, const Vec3d& weights, SampleBlock& block) const;
 
   const Mesh& mesh_;
   std::vector<std::uint32_t> vertices_;

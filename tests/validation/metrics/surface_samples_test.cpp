@@ -13,10 +13,15 @@ using namespace etalon::validation;
 
 namespace {
 
-std::vector<SurfaceSample> all_of(const SurfaceSamples& samples) {
-  std::vector<SurfaceSample> list;
-  for (std::size_t b = 0; b < samples.block_count(); ++b) samples.append_block(b, list);
-  return list;
+SampleBlock all_of(const SurfaceSamples& samples) {
+  SampleBlock all;
+  for (std::size_t b = 0; b < samples.block_count(); ++b) {
+    const SampleBlock block = samples.block(b);
+    CHECK(block.points.size() == (b + 1 < samples.block_count() ? kBlockSamples : samples.count() - b * kBlockSamples));
+    all.points.insert(all.points.end(), block.points.begin(), block.points.end());
+    all.colors.insert(all.colors.end(), block.colors.begin(), block.colors.end());
+  }
+  return all;
 }
 
 }  // namespace
@@ -32,12 +37,12 @@ TEST_CASE("a square: its vertices, even steps on its edges, the rest by area") {
 
 TEST_CASE("blocks together are all samples; they lie on the surface") {
   const Mesh mesh = square();
-  const SurfaceSamples samples(mesh, 5000);
-  const std::vector<SurfaceSample> list = all_of(samples);
+  const SurfaceSamples samples(mesh, 20'000);
+  const std::vector<Vec3d> list = all_of(samples).points;
   REQUIRE(list.size() == samples.count());
   std::size_t lower = 0, inside = 0;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Vec3d& p = list[i].point;
+    const Vec3d& p = list[i];
     REQUIRE(p.z == 0);
     REQUIRE(std::min(p.x, p.y) >= 0);
     REQUIRE(std::max(p.x, p.y) <= 1);
@@ -55,11 +60,11 @@ TEST_CASE("points inside a face are spread evenly: no quarter of a triangle has 
   Mesh one = square();
   one.faces.resize(1);
   const SurfaceSamples samples(one, 4000);
-  const std::vector<SurfaceSample> list = all_of(samples);
+  const std::vector<Vec3d> list = all_of(samples).points;
   std::size_t corner = 0, total = 0;
   for (std::size_t i = samples.vertex_count() + samples.edge_count(); i < list.size(); ++i) {
     ++total;
-    corner += list[i].point.x < 0.5 ? 1 : 0;  // the quarter at vertex 0 of (0,0), (1,0), (1,1)
+    corner += list[i].x < 0.5 ? 1 : 0;  // the quarter at vertex 0 of (0,0), (1,0), (1,1)
   }
   // A sequence of n points of discrepancy O(log n / n): within 1 % of a quarter for n = 3,800.
   CHECK(total > 3500);
@@ -70,15 +75,22 @@ TEST_CASE("points inside a face are spread evenly: no quarter of a triangle has 
 TEST_CASE("colours are blended as positions are") {
   Mesh mesh = square();
   for (const Vec3f& p : mesh.positions) mesh.colors.push_back({p.x, p.y, 0.25f, 1});
-  for (const SurfaceSample& sample : all_of(SurfaceSamples(mesh, 500))) {
-    REQUIRE(sample.color.x == sample.point.x);
-    REQUIRE(sample.color.y == sample.point.y);
-    REQUIRE(sample.color.z == doctest::Approx(0.25).epsilon(1e-15));
+  const SampleBlock all = all_of(SurfaceSamples(mesh, 500));
+  REQUIRE(all.colors.size() == all.points.size());
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    REQUIRE(all.colors[i].x == all.points[i].x);
+    REQUIRE(all.colors[i].y == all.points[i].y);
+    REQUIRE(all.colors[i].z == doctest::Approx(0.25).epsilon(1e-15));
   }
+  CHECK(all_of(SurfaceSamples(square(), 500)).colors.empty());
 }
 
 TEST_CASE("few samples, a surface without area, a vertex of no face") {
   CHECK(SurfaceSamples(square(), 1).count() == 4);
+  const Mesh grid = bumpy_grid(80, 0.1f, 1);  // 6,561 vertices: two blocks of nothing else
+  const SurfaceSamples only_vertices(grid, 100);
+  CHECK(only_vertices.block_count() == 2);
+  CHECK(all_of(only_vertices).points.size() == 6561);
   Mesh point = square();
   for (Vec3f& p : point.positions) p = {1, 2, 3};
   CHECK(SurfaceSamples(point, 1000).count() == 4);
