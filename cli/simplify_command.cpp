@@ -1,5 +1,6 @@
 #include "cli/simplify_command.h"
 
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -28,7 +29,7 @@ using simplify::SimplifyResult;
 using validation::grouped;
 
 struct Options {
-  std::string model, output, metric = "qem";
+  std::string model, output, metric = "qem", collapse = "half", tolerance;
   std::optional<std::int64_t> faces;
   std::optional<double> ratio, unit, weight;
   double min_cosine = simplify::LegalityOptions{}.min_normal_cosine;
@@ -41,7 +42,23 @@ struct Job {
   io::LoadedModel model;  // welded
   std::size_t vertices_read = 0;
   std::size_t target_faces = 0;
+  std::optional<double> tolerance;  // model units
 };
+
+// "0.01", or "0.5%" of the diagonal.
+double length_of(const std::string& text, double diagonal) {
+  std::size_t read = 0;
+  double length = -1;
+  try {
+    length = std::stod(text, &read);
+  } catch (const std::exception&) {
+    read = 0;
+  }
+  const bool percent = read + 1 == text.size() && text.back() == '%';
+  if (read == 0 || (read != text.size() && !percent) || !(length >= 0) || std::isinf(length))
+    throw UsageError(fmt::format("simplify: --tolerance: expected a length of at least 0, as 0.01 or 0.5% of the diagonal, got {}", text));
+  return percent ? length / 100 * diagonal : length;
+}
 
 Job read_job(const Options& options, CallFiles& files) {
   Job job;
@@ -57,7 +74,9 @@ Job read_job(const Options& options, CallFiles& files) {
   job.vertices_read = job.model.mesh.vertex_count();
   job.model.mesh = welded_by_position(job.model.mesh);
   const std::size_t faces = job.model.mesh.face_count();
-  job.target_faces = options.faces ? static_cast<std::size_t>(*options.faces) : simplify::faces_for_ratio(faces, *options.ratio);
+  if (options.faces) job.target_faces = static_cast<std::size_t>(*options.faces);
+  if (options.ratio) job.target_faces = simplify::faces_for_ratio(faces, *options.ratio);
+  if (!options.tolerance.empty()) job.tolerance = length_of(options.tolerance, bounding_box(job.model.mesh).diagonal());
   return job;
 }
 
@@ -67,8 +86,9 @@ Json document_of(const Options& options, const Job& job, const SimplifyResult& r
   const double diagonal = bounding_box(job.model.mesh).diagonal();
   Json document = validation::document_head("simplify", {job.input});
   document["metric"] = options.metric;
-  document["collapse"] = "half";
+  document["collapse"] = options.collapse;
   document["target_faces"] = job.target_faces;
+  document["tolerance"] = job.tolerance ? Json(*job.tolerance) : Json(nullptr);
   document["vertices_in"] = job.model.mesh.vertex_count();
   document["vertices_out"] = result.mesh.vertex_count();
   document["faces_in"] = job.model.mesh.face_count();
@@ -79,8 +99,10 @@ Json document_of(const Options& options, const Job& job, const SimplifyResult& r
   document["error_of_diagonal"] = diagonal > 0 ? Json(result.error / diagonal) : Json(nullptr);
   document["distance_max"] = *result.distance_max;
   document["distance_max_of_diagonal"] = diagonal > 0 ? Json(*result.distance_max / diagonal) : Json(nullptr);
+  document["distance_audited"] = result.distance_audited ? Json(*result.distance_audited) : Json(nullptr);
   document["max_cost"] = result.max_cost;
   document["error_state_bytes_per_vertex"] = result.state_bytes_per_vertex;
+  document["error_state_bytes"] = result.state_bytes;
   document["kinds"] = {{"interior", result.interior_vertices}, {"curve", result.curve_vertices}, {"locked", result.locked_vertices}};
   Json refusals = Json::object();
   for (std::size_t i = 1; i < simplify::kRefusalCount; ++i) refusals[to_string(static_cast<simplify::Refusal>(i))] = result.refusals[i];
@@ -134,7 +156,12 @@ int run(const Options& options) {
   if (options.unit && options.metric != "kim") throw UsageError("simplify: --unit is of --metric kim");
   const bool has_attributes = options.metric == "qem5" || options.metric == "qem6" || options.metric == "hoppe";
   if (options.weight && !has_attributes) throw UsageError("simplify: --weight is of --metric qem5, qem6 and hoppe");
-  if (options.faces.has_value() == options.ratio.has_value()) throw UsageError("simplify: expected one of --faces and --ratio");
+  if (options.metric == "kim" && options.collapse == "full")
+    throw UsageError("simplify: --metric kim is of half-edge collapses: --collapse half");
+  if (options.faces && options.ratio) throw UsageError("simplify: expected one of --faces and --ratio, got both");
+  if (!options.faces && !options.ratio && options.tolerance.empty())
+    throw UsageError("simplify: expected one of --faces, --ratio and --tolerance");
+  if (!options.tolerance.empty()) (void)length_of(options.tolerance, 1);
   require_writable_file(options.output);
   require_writable_file(options.common.json);
   Console console(console_options(options.common));
@@ -146,7 +173,9 @@ int run(const Options& options) {
 
   const SimplifyResult result = naming_the_model(options.model, [&] {
     simplify::SimplifyOptions how;
+    how.collapse = options.collapse == "full" ? simplify::CollapseKind::full : simplify::CollapseKind::half;
     how.target_faces = job.target_faces;
+    how.tolerance = job.tolerance;
     how.metric = simplify::metric_named(options.metric);
     how.attribute_weight = options.weight.value_or(how.attribute_weight);
     how.kim.unit = options.unit.value_or(0);
@@ -168,22 +197,30 @@ int run(const Options& options) {
                            grouped(job.model.mesh.face_count()), grouped(result.mesh.vertex_count()),
                            grouped(job.model.mesh.vertex_count()), result.error,
                            diagonal > 0 ? fmt::format(" ({:.4g} % of the diagonal)", 100 * result.error / diagonal) : ""));
-  console.line(fmt::format("no vertex of the model is farther than {:.6g} from the result", *result.distance_max));
+  if (result.distance_audited)
+    console.line(fmt::format("no vertex of the model is farther than {:.6g} from the result (audited; asked for {:.6g})",
+                             *result.distance_audited, *job.tolerance));
+  else
+    console.line(fmt::format("no vertex of the model is farther than {:.6g} from the result", *result.distance_max));
   console.line(refusals_line(result));
-  if (result.stop == simplify::StopReason::exhausted)
+  const bool by_faces = options.faces || options.ratio;
+  if (by_faces && result.stop == simplify::StopReason::tolerance)
+    console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused, some for the tolerance",
+                             grouped(job.target_faces)));
+  if (by_faces && result.stop == simplify::StopReason::exhausted)
     console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused", grouped(job.target_faces)));
   if (!job.input.attribution.empty()) console.line("by " + job.input.attribution);
   for (const std::filesystem::path& path : outputs) console.line("wrote " + path.string());
   write_document(options.common, document_of(options, job, result));
   if (!options.common.json.empty() && options.common.json != "-") console.line("wrote " + options.common.json);
-  return result.stop == simplify::StopReason::faces ? kExitDone : kExitWarning;
+  return result.stop == simplify::StopReason::faces || !by_faces ? kExitDone : kExitWarning;
 }
 
 }  // namespace
 
 Verb add_simplify(CLI::App& root) {
   const auto options = std::make_shared<Options>();
-  CLI::App* app = root.add_subcommand("simplify", "Write a model with fewer triangles: half-edge collapses in strict order of error");
+  CLI::App* app = root.add_subcommand("simplify", "Write a model with fewer triangles: edge collapses in strict order of error");
   app->add_option("model", options->model, "Mesh: .obj .ply .glb .gltf")->required()->type_name("MODEL")->check(not_empty());
   app->add_option("--faces", options->faces, "Stop at this many triangles")
       ->type_name("N")
@@ -191,6 +228,17 @@ Verb add_simplify(CLI::App& root) {
   app->add_option("--ratio", options->ratio, "Stop at this share of the model's triangles, 0 to 1")
       ->type_name("R")
       ->check(CLI::Range(0.0, 1.0));
+  app->add_option("--tolerance", options->tolerance,
+                  "Let no vertex of the model be farther than this from the result: model units, or 0.5% of the diagonal; alone, or with "
+                  "--faces or --ratio, whichever comes first")
+      ->type_name("D")
+      ->check(not_empty());
+  app->add_option(
+         "--collapse", options->collapse,
+         "half: a vertex goes into a neighbour, vertices keep their places (default); full: both ends of an edge go where the error "
+         "is least (not for kim)")
+      ->type_name("half|full")
+      ->check(CLI::IsMember({"half", "full"}));
   app->add_option(
          "--metric", options->metric,
          "Error metric: qem, the quadric of Garland & Heckbert (default); qem5 and qem6, with texture coordinates or vertex colours; "
@@ -212,7 +260,9 @@ Verb add_simplify(CLI::App& root) {
   app->add_flag("--refuse-non-manifold", options->refuse_non_manifold,
                 "Fail where the model is no oriented manifold, instead of keeping those places as they are");
   app->add_option("-o,--output", options->output, "Model to write: .obj .ply .glb")->required()->type_name("OUT")->check(not_empty());
-  add_common_options(*app, options->common, "  etalon simplify scan.ply --ratio 0.1 -o small.ply");
+  add_common_options(*app, options->common,
+                     "  etalon simplify scan.ply --ratio 0.1 -o small.ply\n"
+                     "  etalon simplify scan.ply --tolerance 0.1% --collapse full --metric qem6 -o near.ply");
   return {app, [options] { return run(*options); }};
 }
 

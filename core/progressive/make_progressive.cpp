@@ -194,6 +194,8 @@ ProgressiveData Recorder::data(const simplify::SimplifyResult& base) const {
 }  // namespace
 
 ProgressiveResult make_progressive(const Mesh& mesh, const simplify::SimplifyOptions& options) {
+  if (options.collapse != simplify::CollapseKind::half)
+    throw InputError("progressive mesh: expected half-edge collapses, got full-edge: a split does not move its parent back");
   Recorder recorder(mesh);
   simplify::SimplifyOptions observed = options;
   observed.before_collapse = [&](const CollapseMesh& triangles, const CollapseEvent& event) {

@@ -7,13 +7,14 @@
 
 #include "core/simplify/collapse_candidate.h"
 #include "core/simplify/curve_planes.h"
+#include "core/simplify/moved_vertex.h"
 #include "core/simplify/placement.h"
 
 namespace etalon::simplify {
 
 /// Attributes:
-///   kCount; kPerWedge (else per vertex); static Value = array<float, kCount> value(mesh, node) of a vertex or wedge; static float stored(double), the
-///   range that stored values keep.
+///   kCount; kPerWedge (else per vertex); array<float, kCount> value(mesh, node) of a vertex or wedge; float stored(double), rounded and in range;
+///   adopt(left, right, moved).
 /// Quadric<Real, M>: AttributeQuadric or HoppeQuadric.
 ///
 /// State: one quadric of float32 a node, measured from the node's own point in the unit cube, rounded once a collapse; all arithmetic in double. Per
@@ -109,10 +110,10 @@ class AttributeMetric {
       quadrics_[to] = rounded(moved_sum(Merged{}, merged, step_of<kCount>(difference_of(places_[v], placement.at), difference)));
     }
   }
-  /// Writes what place() chose into the mesh.
-  void store(CollapseMesh& mesh, std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge, const Placement& placement) const {
+  /// Overwrites what place() chose.
+  void adopt(const Placement& placement, std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge, MovedVertex& moved) const {
     const Sides pairs = sides(u, v, edge.left != kNone ? edge.left : edge.right);
-    for (std::size_t i = 0; i < pairs.count; ++i) Attributes::store(mesh, pairs.of[i].second, placement.attributes[i]);
+    Attributes::adopt(placement.attributes[0], placement.attributes[pairs.count - 1], moved);
   }
 
   [[nodiscard]] std::size_t state_bytes() const { return quadrics_.size() * sizeof(Stored); }
@@ -202,8 +203,8 @@ struct ColorAttributes {
     return {color.x, color.y, color.z};
   }
   static float stored(double value) { return static_cast<float>(std::clamp(value, 0.0, 1.0)); }
-  static void store(CollapseMesh& mesh, std::uint32_t v, const std::array<float, 3>& rgb) {
-    mesh.set_color(v, {rgb[0], rgb[1], rgb[2], mesh.color(v).w});
+  static void adopt(const std::array<float, 3>& rgb, const std::array<float, 3>&, MovedVertex& moved) {
+    moved.color = {rgb[0], rgb[1], rgb[2], moved.color.w};
   }
 };
 
@@ -216,7 +217,10 @@ struct UvAttributes {
     return {uv.x, uv.y};
   }
   static float stored(double value) { return static_cast<float>(value); }
-  static void store(CollapseMesh& mesh, std::uint32_t wedge, const std::array<float, 3>& uv) { mesh.set_uv(wedge, {uv[0], uv[1]}); }
+  // With one pair both are that of all; with one side of a boundary likewise.
+  static void adopt(const std::array<float, 3>& first, const std::array<float, 3>& last, MovedVertex& moved) {
+    moved.uv = {Vec2f{first[0], first[1]}, Vec2f{last[0], last[1]}};
+  }
 };
 
 }  // namespace etalon::simplify

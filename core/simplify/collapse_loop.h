@@ -36,18 +36,23 @@ class CollapseLoop {
     queue_.assign(std::move(entries));
   }
 
-  /// The next collapse, judged legal and not yet done; u is kNone where none is left.
-  [[nodiscard]] Step find() {
+  /// The next collapse, judged legal and not yet done; u is kNone where none is left. `accept(step)`: a last word, Refusal::none or another.
+  template <class Accept>
+  [[nodiscard]] Step find(const Accept& accept) {
     while (!queue_.empty()) {
       const QueuedCollapse top = queue_.top();
-      const CollapseMesh::Edge edge = mesh_.find_edge(top.vertex, top.target);
-      const Refusal refusal = legality_.check(top.vertex, edge);
-      if (refusal == Refusal::none) return {top.vertex, top.target, edge, top.cost};
+      const Step step{top.vertex, top.target, mesh_.find_edge(top.vertex, top.target), top.cost};
+      Refusal refusal = legality_.check(top.vertex, step.edge);
+      if (refusal == Refusal::none) refusal = accept(step);
+      if (refusal == Refusal::none) return step;
       ++refusals_[static_cast<std::size_t>(refusal)];
       refused_[top.vertex] = true;
       requeue(best_after(top));
     }
     return {};
+  }
+  [[nodiscard]] Step find() {
+    return find([](const Step&) { return Refusal::none; });
   }
 
   /// Does what find() returned last.

@@ -1,5 +1,7 @@
 #include "core/simplify/landing_tracker.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/base/error.h"
@@ -16,6 +18,11 @@ Vec3d on_side(std::uint32_t k, double t) {
   return weights;
 }
 
+Vec3d on_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+  const double t = nearest_on_segment(p, a, b);
+  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};
+}
+
 }  // namespace
 
 LandingTracker::LandingTracker(const CollapseMesh& mesh)
@@ -23,45 +30,50 @@ LandingTracker::LandingTracker(const CollapseMesh& mesh)
       landings_(mesh.source().vertex_count()),
       head_(mesh.face_capacity(), kNone),
       next_(mesh.source().vertex_count(), kNone),
-      curve_corner_(mesh.source().vertex_count(), 0) {}
-
-void LandingTracker::before(std::uint32_t u, const CollapseMesh::Edge& edge) {
-  target_ = edge.left != kNone ? mesh_.end(edge.left) : mesh_.start(edge.right);
-  moving_.clear();
-  for (auto& faces : faces_) faces.clear();
-  take_faces(u, edge);
-
-  Moving self{u, edge.left != kNone ? 0 : 1};
-  if (mesh_.kind(u) == VertexKind::curve) {
-    // The chain v-u-w becomes the edge v-w.
-    mesh_.for_each_neighbor(u, [&](std::uint32_t n, std::uint32_t h) {
-      if (mesh_.on_curve(h) && n != target_) self.curve_b = n;
-    });
-    self.curve_a = target_;
-    for (Moving& point : moving_)
-      if (point.curve_a == u || point.curve_b == u) {
-        point.curve_a = self.curve_a;
-        point.curve_b = self.curve_b;
-      }
-  }
-  moving_.push_back(self);
+      curve_corner_(mesh.source().vertex_count(), 0),
+      followed_(mesh.source().vertex_count(), false) {
+  double largest = 0;
+  for (const Vec3f& p : mesh.source().positions) largest = std::max<double>({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  slack_ = 0x1p-48 * largest;
 }
 
-void LandingTracker::take_faces(std::uint32_t u, const CollapseMesh::Edge& edge) {
-  int side = edge.left != kNone ? 0 : 1;
-  const std::uint32_t first = edge.left != kNone ? edge.left : mesh_.first_out(u);
-  std::uint32_t h = first;
-  do {
-    const std::uint32_t back = CollapseMesh::previous(h);
-    take_points(h >> 2, side);
-    if (h != edge.left && back != edge.right) faces_[static_cast<std::size_t>(side)].push_back(h >> 2);
-    if (mesh_.on_curve(back)) side = 1;
-    h = mesh_.opposite(back);
-  } while (h != kNone && h != first);
+void LandingTracker::plan(std::uint32_t u, const CollapseMesh::Edge& edge, const Vec3f* at) {
+  u_ = u;
+  v_ = edge.left != kNone ? mesh_.end(edge.left) : mesh_.start(edge.right);
+  edge_ = edge;
+  moves_ = at != nullptr;
+  at_ = to_double(moves_ ? *at : mesh_.position(v_));
+  moving_.clear();
+  emptied_.clear();
+  for (auto& faces : faces_) faces.clear();
+
+  const bool on_curve = mesh_.kind(u) == VertexKind::curve;
+  const int u_side = edge.left != kNone ? 0 : 1;
+  take_faces(u, edge.left != kNone ? edge.left : mesh_.first_out(u), u_side);
+  if (moves_) take_faces(v_, edge.right != kNone ? edge.right : mesh_.first_out(v_), on_curve && edge.right != kNone ? 1 : u_side);
   // A side of one face, which goes: what lies behind its third edge, which is on no curve, takes its place.
   if (edge.left != kNone && faces_[0].empty()) faces_[0].push_back(mesh_.opposite(CollapseMesh::next(edge.left)) >> 2);
-  if (edge.right != kNone && faces_[1].empty() && mesh_.kind(u) == VertexKind::curve)
-    faces_[1].push_back(mesh_.opposite(CollapseMesh::previous(edge.right)) >> 2);
+  if (edge.right != kNone && faces_[1].empty() && on_curve) faces_[1].push_back(mesh_.opposite(CollapseMesh::previous(edge.right)) >> 2);
+
+  take_self(u, u_side);
+  if (moves_) take_self(v_, u_side);
+  if (on_curve) plan_curve(u, moves_);
+}
+
+// Around w counter-clockwise from the half-edge `first`, on `side` of the curve up to its next edge, on the other behind.
+void LandingTracker::take_faces(std::uint32_t w, std::uint32_t first, int side) {
+  const bool turns = mesh_.kind(w) == VertexKind::curve;
+  std::uint32_t h = first;
+  do {
+    const std::uint32_t back = CollapseMesh::previous(h), f = h >> 2;
+    if (std::find(emptied_.begin(), emptied_.end(), f) == emptied_.end()) {
+      emptied_.push_back(f);
+      take_points(f, side);
+      if (f != edge_.left >> 2 && f != edge_.right >> 2) faces_[static_cast<std::size_t>(side)].push_back(f);
+    }
+    if (turns && mesh_.on_curve(back)) side = 1 - side;
+    h = mesh_.opposite(back);
+  } while (h != kNone && h != first);
 }
 
 void LandingTracker::take_points(std::uint32_t face, int side) {
@@ -73,16 +85,82 @@ void LandingTracker::take_points(std::uint32_t face, int side) {
     }
     moving_.push_back(point);
   }
-  head_[face] = kNone;
+}
+
+// w's own place in the input, which was a vertex of the surface until now.
+void LandingTracker::take_self(std::uint32_t w, int side) {
+  if (followed_[w]) return;
+  Moving self{w, side};
+  if (mesh_.kind(w) == VertexKind::curve) self.curve_a = self.curve_b = w;
+  moving_.push_back(self);
+}
+
+// The chain a-u-v-b becomes a-v-b, or where v stays a-u-v becomes a-v: points on its changing edges go to the nearest of those.
+void LandingTracker::plan_curve(std::uint32_t u, bool moves) {
+  chain_.clear();
+  const auto add_ends = [&](std::uint32_t w, std::uint32_t but) {
+    mesh_.for_each_neighbor(w, [&](std::uint32_t n, std::uint32_t h) {
+      if (mesh_.on_curve(h) && n != but) chain_.push_back(n);
+    });
+  };
+  add_ends(u, v_);
+  if (moves) add_ends(v_, u);
+  for (Moving& point : moving_)
+    point.on_chain =
+        point.curve_a != kNone && (point.curve_a == u || point.curve_b == u || (moves && (point.curve_a == v_ || point.curve_b == v_)));
+}
+
+NearestOnTriangle LandingTracker::nearest(const Moving& point, std::uint32_t& face) const {
+  const Vec3d p = input(point.vertex);
+  NearestOnTriangle best;
+  best.distance2 = std::numeric_limits<double>::infinity();
+  face = kNone;
+  for (const std::uint32_t f : faces_[static_cast<std::size_t>(point.side)]) {
+    const NearestOnTriangle found =
+        nearest_on_triangle(p, corner(mesh_.start(4 * f)), corner(mesh_.start(4 * f + 1)), corner(mesh_.start(4 * f + 2)));
+    if (found.distance2 > best.distance2 || (found.distance2 == best.distance2 && f > face)) continue;
+    best = found;
+    face = f;
+  }
+  return best;
+}
+
+bool LandingTracker::planned_within(double distance) const {
+  const double limit = distance - slack_;
+  if (!(limit >= 0)) return moving_.empty();
+  const double limit2 = limit * limit;
+  for (const Moving& point : moving_) {
+    const Vec3d p = input(point.vertex);
+    double distance2 = std::numeric_limits<double>::infinity();
+    std::uint32_t face = kNone;
+    if (point.on_chain) {
+      for (const std::uint32_t end : chain_) distance2 = std::min(distance2, squared_distance(p, on_segment(p, at_, corner(end))));
+    } else if (point.curve_a != kNone) {
+      distance2 = squared_distance(p, on_segment(p, corner(point.curve_a), corner(point.curve_b)));
+    } else {
+      distance2 = nearest(point, face).distance2;
+    }
+    if (!(distance2 <= limit2)) return false;
+  }
+  return true;
+}
+
+void LandingTracker::before() {
+  for (const std::uint32_t f : emptied_) head_[f] = kNone;
+  for (const Moving& point : moving_) {
+    followed_[point.vertex] = true;
+    if (point.curve_a != kNone) continue;
+    Landing landing;
+    std::uint32_t face = kNone;
+    landing.weights = nearest(point, face).weights;
+    landing.face = FaceId(face);
+    put(point.vertex, landing);
+  }
 }
 
 void LandingTracker::after() {
-  for (const Moving& point : moving_) {
-    if (point.curve_a != kNone)
-      land_on_edge(point);
-    else
-      land(point);
-  }
+  for (const Moving& point : moving_)
+    if (point.curve_a != kNone) land_on_edge(point);
 }
 
 void LandingTracker::put(std::uint32_t vertex, const Landing& landing) {
@@ -91,35 +169,30 @@ void LandingTracker::put(std::uint32_t vertex, const Landing& landing) {
   head_[landing.face.index] = vertex;
 }
 
-void LandingTracker::land(const Moving& point) {
-  const Vec3d p = place(point.vertex);
-  Landing best;
-  double distance2 = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t f : faces_[static_cast<std::size_t>(point.side)]) {
-    const NearestOnTriangle found =
-        nearest_on_triangle(p, place(mesh_.start(4 * f)), place(mesh_.start(4 * f + 1)), place(mesh_.start(4 * f + 2)));
-    if (found.distance2 > distance2 || (found.distance2 == distance2 && f > best.face.index)) continue;
-    best = {FaceId(f), found.weights, false};
-    distance2 = found.distance2;
-  }
-  put(point.vertex, best);
-}
-
+// Every edge of the curve that changed, or lost its face, now has a face at v or is a side of a face that stays.
 void LandingTracker::land_on_edge(const Moving& point) {
-  // Every edge of the curve that changed, or lost its face, now has a face at v or is a side of a face that stays.
+  const Vec3d p = input(point.vertex);
   Landing best{.face = {}, .weights = {0, 0, 0}, .on_curve = true};
+  double distance2 = std::numeric_limits<double>::infinity();
+  const auto is_its_edge = [&](std::uint32_t a, std::uint32_t b) {
+    if (!point.on_chain) return (a == point.curve_a && b == point.curve_b) || (a == point.curve_b && b == point.curve_a);
+    const std::uint32_t end = a == v_ ? b : a;
+    return (a == v_ || b == v_) && std::find(chain_.begin(), chain_.end(), end) != chain_.end();
+  };
   const auto consider = [&](std::uint32_t f) {
-    if (best.face.valid() && f >= best.face.index) return;
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = mesh_.start(4 * f + k), b = mesh_.end(4 * f + k);
-      if (!(a == point.curve_a && b == point.curve_b) && !(a == point.curve_b && b == point.curve_a)) continue;
-      const double t = nearest_on_segment(place(point.vertex), place(a), place(b));
+      const std::uint32_t h = 4 * f + k, a = mesh_.start(h), b = mesh_.end(h);
+      if (!mesh_.on_curve(h) || !is_its_edge(a, b)) continue;
+      const Vec3d at_a = to_double(mesh_.position(a)), at_b = to_double(mesh_.position(b));
+      const double t = nearest_on_segment(p, at_a, at_b), here = squared_distance(p, on_segment(p, at_a, at_b));
+      if (best.face.valid() && (here > distance2 || (here == distance2 && f >= best.face.index))) continue;
+      distance2 = here;
       best.face = FaceId(f);
       best.weights = on_side(k, t);
       curve_corner_[point.vertex] = static_cast<std::uint8_t>(k);
     }
   };
-  const std::uint32_t first = mesh_.first_out(target_);
+  const std::uint32_t first = mesh_.first_out(v_);
   std::uint32_t h = first;
   do {
     consider(h >> 2);
@@ -141,8 +214,10 @@ std::vector<Landing> LandingTracker::landings() const {
   }
   for (std::uint32_t f = mesh_.face_capacity(); f-- > 0;) {
     if (!mesh_.face_alive(f)) continue;
-    for (std::uint32_t k = 0; k < 3; ++k)
-      result[mesh_.origin(mesh_.start(4 * f + k))] = {.face = FaceId(f), .weights = on_side(k, 0), .on_curve = false};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh_.origin(mesh_.start(4 * f + k));
+      if (!followed_[v]) result[v] = {.face = FaceId(f), .weights = on_side(k, 0), .on_curve = false};
+    }
   }
   return result;
 }

@@ -29,17 +29,39 @@ const char* to_string(Refusal refusal) {
     case Refusal::curve: return "curve_closes";
     case Refusal::flip_in_space: return "flip_in_space";
     case Refusal::flip_in_texture: return "flip_in_texture";
+    case Refusal::tolerance: return "beyond_tolerance";
   }
   return "";
 }
 
-Refusal Legality::check(std::uint32_t u, const CollapseMesh::Edge& edge) {
-  const std::uint32_t v = edge.left != kNone ? mesh_.end(edge.left) : mesh_.start(edge.right);
+Refusal Legality::check_topology(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) {
   if (!link_holds(u, v, edge)) return Refusal::link;
   if (last_faces(u, v, edge)) return Refusal::last_faces;
   if (closes_curve(edge)) return Refusal::curve;
-  if (flips_in_space(u, v, edge)) return Refusal::flip_in_space;
-  if (mesh_.source().has_uv && flips_in_texture(u, edge)) return Refusal::flip_in_texture;
+  return Refusal::none;
+}
+
+Refusal Legality::check(std::uint32_t u, const CollapseMesh::Edge& edge) {
+  const std::uint32_t v = edge.left != kNone ? mesh_.end(edge.left) : mesh_.start(edge.right);
+  if (const Refusal refusal = check_topology(u, v, edge); refusal != Refusal::none) return refusal;
+  if (flips_in_space(u, places_[v], edge)) return Refusal::flip_in_space;
+  if (mesh_.textured()) {
+    // As CollapseMesh::collapse: v's left wedge counter-clockwise up to the other curve edge of u, its right one behind.
+    const Vec2f* right = edge.right != kNone ? &mesh_.uv(edge.right) : nullptr;
+    const Vec2f* left = edge.left != kNone ? &mesh_.uv(CollapseMesh::next(edge.left)) : nullptr;
+    if (flips_in_texture(u, edge, left, right)) return Refusal::flip_in_texture;
+  }
+  return Refusal::none;
+}
+
+Refusal Legality::check_move(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge, const MovedVertex& moved) {
+  if (const Refusal refusal = check_topology(u, v, edge); refusal != Refusal::none) return refusal;
+  if (flips_in_space(u, moved.at, edge) || flips_in_space(v, moved.at, edge)) return Refusal::flip_in_space;
+  if (!mesh_.textured()) return Refusal::none;
+  const Vec2f *left = &moved.uv[0], *right = &moved.uv[1];
+  if (flips_in_texture(u, edge, left, right)) return Refusal::flip_in_texture;
+  // Seen from v the sides change places.
+  if (flips_in_texture(v, {edge.right, edge.left}, right, left)) return Refusal::flip_in_texture;
   return Refusal::none;
 }
 
@@ -85,17 +107,19 @@ bool Legality::closes_curve(const CollapseMesh::Edge& edge) const {
   return both(edge.left) || both(edge.right);
 }
 
-bool Legality::flips_in_space(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) const {
-  const Vec3f &at_u = places_[u], &at_v = places_[v];
+// Of the faces of w but the two at the edge, w going to `to`.
+bool Legality::flips_in_space(std::uint32_t w, const Vec3f& to, const CollapseMesh::Edge& edge) const {
+  const Vec3f& from = places_[w];
   const double least = options_.min_normal_cosine * options_.min_normal_cosine;
-  const std::uint32_t first = mesh_.first_out(u);
+  const std::uint32_t left = edge.left >> 2, right = edge.right >> 2;
+  const std::uint32_t first = mesh_.first_out(w);
   std::uint32_t h = first;
   do {
     const std::uint32_t back = CollapseMesh::previous(h);
-    if (h != edge.left && back != edge.right) {
+    if (h >> 2 != left && h >> 2 != right) {
       const Vec3f &x = places_[mesh_.end(h)], &y = places_[mesh_.start(back)];
-      const Vec3d before = cross_product(difference_of(at_u, x), difference_of(at_u, y)),
-                  after = cross_product(difference_of(at_v, x), difference_of(at_v, y));
+      const Vec3d before = cross_product(difference_of(from, x), difference_of(from, y)),
+                  after = cross_product(difference_of(to, x), difference_of(to, y));
       const double area_before = dot_product(before, before), area_after = dot_product(after, after);
       // A face that has no area has no side to keep.
       if (area_before > 0) {
@@ -108,18 +132,17 @@ bool Legality::flips_in_space(std::uint32_t u, std::uint32_t v, const CollapseMe
   return false;
 }
 
-bool Legality::flips_in_texture(std::uint32_t u, const CollapseMesh::Edge& edge) const {
-  const auto uv = [&](std::uint32_t at) -> const Vec2f& { return mesh_.uv(at); };
-  // As CollapseMesh::collapse: v's left wedge counter-clockwise up to the other curve edge of u, its right one behind.
-  const Vec2f* right = edge.right != kNone ? &uv(edge.right) : nullptr;
-  const Vec2f* target = edge.left != kNone ? &uv(CollapseMesh::next(edge.left)) : right;
-  const std::uint32_t first = edge.left != kNone ? edge.left : mesh_.first_out(u);
+// Of the faces of w but the two at the edge, which leaves w; w's texture coordinates becoming *left and *right of it.
+bool Legality::flips_in_texture(std::uint32_t w, const CollapseMesh::Edge& edge, const Vec2f* left, const Vec2f* right) const {
+  const Vec2f* target = edge.left != kNone ? left : right;
+  const std::uint32_t left_face = edge.left >> 2, right_face = edge.right >> 2;
+  const std::uint32_t first = edge.left != kNone ? edge.left : mesh_.first_out(w);
   std::uint32_t h = first;
   do {
     const std::uint32_t back = CollapseMesh::previous(h);
-    if (h != edge.left && back != edge.right) {
+    if (h >> 2 != left_face && h >> 2 != right_face) {
       const int sign = mesh_.uv_sign(h >> 2);
-      if (sign != 0 && uv_orientation(*target, uv(CollapseMesh::next(h)), uv(back)) != sign) return true;
+      if (sign != 0 && uv_orientation(*target, mesh_.uv(CollapseMesh::next(h)), mesh_.uv(back)) != sign) return true;
     }
     if (mesh_.on_curve(back)) target = right;
     h = mesh_.opposite(back);

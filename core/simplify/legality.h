@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/simplify/moved_vertex.h"
 #include "core/simplify/unit_positions.h"
 
 namespace etalon::simplify {
@@ -15,8 +16,9 @@ enum class Refusal : std::uint8_t {
   curve,            ///< two curves would become one: a chart, a hole or a material's piece of one triangle's width would close
   flip_in_space,    ///< a face would turn by more than the limit, or lose its area
   flip_in_texture,  ///< a face would be against its chart's orientation, or without area, in texture space; a fold may only be healed
+  tolerance,        ///< a vertex of the input would be farther from the surface than asked for
 };
-inline constexpr std::size_t kRefusalCount = 6;
+inline constexpr std::size_t kRefusalCount = 7;
 /// "link_condition", "last_faces", …: as documents name them.
 [[nodiscard]] const char* to_string(Refusal refusal);
 
@@ -25,7 +27,7 @@ struct LegalityOptions {
   double min_normal_cosine = 0.2;
 };
 
-/// Judges half-edge collapses of vertices to neighbours along edges that their kinds allow. Signs in texture space are exact. Holds marks of
+/// Judges collapses of vertices to neighbours along edges that their kinds allow. Signs in texture space are exact. Holds marks of
 /// its own: one judge, one thread.
 class Legality {
  public:
@@ -34,13 +36,16 @@ class Legality {
 
   /// u → the other end of `edge`, which is edge_from(u, …).
   [[nodiscard]] Refusal check(std::uint32_t u, const CollapseMesh::Edge& edge);
+  /// The full-edge collapse of `edge`, edge_from(u, …), to v as moved: the same, and no face of v turned over either.
+  [[nodiscard]] Refusal check_move(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge, const MovedVertex& moved);
 
  private:
+  [[nodiscard]] Refusal check_topology(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge);
   [[nodiscard]] bool link_holds(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge);
   [[nodiscard]] bool last_faces(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) const;
   [[nodiscard]] bool closes_curve(const CollapseMesh::Edge& edge) const;
-  [[nodiscard]] bool flips_in_space(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) const;
-  [[nodiscard]] bool flips_in_texture(std::uint32_t u, const CollapseMesh::Edge& edge) const;
+  [[nodiscard]] bool flips_in_space(std::uint32_t w, const Vec3f& to, const CollapseMesh::Edge& edge) const;
+  [[nodiscard]] bool flips_in_texture(std::uint32_t w, const CollapseMesh::Edge& edge, const Vec2f* left, const Vec2f* right) const;
 
   const CollapseMesh& mesh_;
   const std::vector<Vec3f>& places_;

@@ -6,6 +6,7 @@
 
 #include "core/simplify/collapse_candidate.h"
 #include "core/simplify/curve_planes.h"
+#include "core/simplify/moved_vertex.h"
 #include "core/simplify/placement.h"
 #include "core/simplify/quadric.h"
 
@@ -50,6 +51,8 @@ class QemMetric {
     const Quadric3<double> merged = sum(quadrics_[v], moved(quadrics_[u], difference(u, v)));
     quadrics_[v] = rounded(moved(merged, difference_of(places_[v], placement.at)));
   }
+
+  void adopt(const Placement&, std::uint32_t, std::uint32_t, const CollapseMesh::Edge&, MovedVertex&) const {}
 
   [[nodiscard]] std::size_t state_bytes() const { return quadrics_.size() * sizeof(quadrics_[0]); }
 

@@ -7,8 +7,11 @@
 
 #include "core/base/error.h"
 #include "core/base/float_environment.h"
+#include "core/base/parallel.h"
+#include "core/mesh/triangle_tree.h"
 #include "core/simplify/collapse_loop.h"
 #include "core/simplify/extract.h"
+#include "core/simplify/full_edge_loop.h"
 #include "core/simplify/hoppe_metric.h"
 #include "core/simplify/landing_tracker.h"
 #include "core/simplify/qem5_metric.h"
@@ -45,6 +48,8 @@ void require_valid(const Mesh& mesh, const SimplifyOptions& options) {
     if (by_color && !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z)))
       throw InputError(fmt::format("vertex {}: colour: expected finite numbers, got {} {} {}", v, c.x, c.y, c.z));
   }
+  if (options.tolerance && !(*options.tolerance >= 0))
+    throw InputError(fmt::format("tolerance: expected a distance of at least 0, got {}", *options.tolerance));
   if (!(options.attribute_weight > 0) || std::isinf(options.attribute_weight))
     throw InputError(fmt::format("attribute weight: expected a positive number, got {}", options.attribute_weight));
   for (const VertexId v : options.locked)
@@ -86,36 +91,118 @@ void measure_landings(const Mesh& source, SimplifyResult& result) {
   result.distance_max = std::sqrt(distance2);
 }
 
-template <class Metric>
-void run(CollapseMesh& mesh, const UnitPositions& positions, Metric& metric, const SimplifyOptions& options, SimplifyResult& result) {
-  Legality legality(mesh, positions, options.legality);
-  CollapseLoop<Metric> loop(mesh, metric, legality);
-  const std::size_t faces_before = mesh.face_count();
-  const std::size_t to_remove = faces_before > options.target_faces ? faces_before - options.target_faces : 0;
-  std::optional<LandingTracker> tracker;
-  if (options.record_landings) tracker.emplace(mesh);
-  double squared_error = 0;
-  while (mesh.face_count() > options.target_faces) {
-    const auto step = loop.find();
-    if (step.u == kNone) {
-      result.stop = StopReason::exhausted;
-      break;
-    }
-    result.max_cost = std::max(result.max_cost, step.cost);
-    squared_error = std::max(squared_error, metric.squared_distance(step.u, step.v, step.cost));
-    if (options.before_collapse) options.before_collapse(mesh, {step.u, step.v, step.edge, step.cost});
-    if (tracker) tracker->before(step.u, step.edge);
-    loop.apply(step);
-    if (tracker) tracker->after();
-    if (options.after_collapse) options.after_collapse(mesh);
-    ++result.collapse_count;
-    if (options.progress && result.collapse_count % 1000 == 0) options.progress(faces_before - mesh.face_count(), to_remove);
+// Wedges that differ in nothing would part when one of them moves.
+void require_one_wedge_a_corner(const CollapseMesh& mesh) {
+  if (!mesh.textured()) return;
+  for (std::uint32_t f = 0; f < mesh.face_capacity(); ++f)
+    for (std::uint32_t h = 4 * f; h < 4 * f + 3 && mesh.face_alive(f); ++h)
+      if (!mesh.on_curve(h) && mesh.wedge(h) != mesh.wedge(CollapseMesh::next(mesh.opposite(h))))
+        throw InputError(fmt::format("vertex {}: expected one wedge on each side of its curve, got two of equal uv: weld first",
+                                     mesh.origin(mesh.start(h))));
+}
+
+// How far the vertices are from the result, whatever their landings say.
+double audit(const Mesh& source, const SimplifyResult& result) {
+  const TriangleTree tree(result.mesh);
+  std::vector<double> distance2(source.vertex_count(), 0);
+  parallel_for(source.vertex_count(), [&](std::size_t v) {
+    const Landing& landing = result.landings[v];
+    if (landing.face.valid()) distance2[v] = tree.nearest(to_double(source.positions[v]), landing.face).distance2;
+  });
+  return std::sqrt(*std::max_element(distance2.begin(), distance2.end()));
+}
+
+/// What both kinds of collapse share: observers, landings, the tolerance, when to stop.
+class Course {
+ public:
+  Course(CollapseMesh& mesh, const UnitPositions& positions, const SimplifyOptions& options, SimplifyResult& result)
+      : mesh_(mesh), positions_(positions), options_(options), result_(result) {
+    if (options.record_landings || options.tolerance) tracker_.emplace(mesh);
   }
-  result.error = std::sqrt(squared_error) * positions.unit;
-  result.refusals = loop.refusals();
-  result.state_bytes = metric.state_bytes();
-  result.state_bytes_per_vertex = (result.state_bytes + mesh.vertex_capacity() - 1) / mesh.vertex_capacity();
-  if (tracker) result.landings = tracker->landings();
+
+  template <class Loop, class Metric>
+  void run(Loop& loop, const Metric& metric) {
+    const std::size_t faces_before = mesh_.face_count();
+    const std::size_t to_remove = faces_before > options_.target_faces ? faces_before - options_.target_faces : 0;
+    double squared_error = 0;
+    while (mesh_.face_count() > options_.target_faces) {
+      const auto step = loop.find([&](const auto& found) { return judge(found); });
+      if (step.u == kNone) {
+        const bool refused = loop.refusals()[static_cast<std::size_t>(Refusal::tolerance)] > 0;
+        result_.stop = refused ? StopReason::tolerance : StopReason::exhausted;
+        break;
+      }
+      result_.max_cost = std::max(result_.max_cost, step.cost);
+      squared_error = std::max(squared_error, metric.squared_distance(step.u, step.v, step.cost));
+      if (options_.before_collapse) options_.before_collapse(mesh_, {step.u, step.v, step.edge, step.cost, moves(step)});
+      if (tracker_ && !options_.tolerance) plan(step);
+      if (tracker_) tracker_->before();
+      loop.apply(step);
+      if (tracker_) tracker_->after();
+      if (options_.after_collapse) options_.after_collapse(mesh_);
+      ++result_.collapse_count;
+      if (options_.progress && result_.collapse_count % 1000 == 0) options_.progress(faces_before - mesh_.face_count(), to_remove);
+    }
+    result_.error = std::sqrt(squared_error) * positions_.unit;
+    result_.refusals = loop.refusals();
+    result_.state_bytes = metric.state_bytes();
+    result_.state_bytes_per_vertex = (result_.state_bytes + mesh_.vertex_capacity() - 1) / mesh_.vertex_capacity();
+    if (tracker_) result_.landings = tracker_->landings();
+  }
+
+ private:
+  template <class Step>
+  static bool moves(const Step& step) {
+    if constexpr (requires { step.moves; })
+      return step.moves;
+    else
+      return false;
+  }
+
+  template <class Step>
+  void plan(const Step& step) {
+    if constexpr (requires { step.moves; }) {
+      if (step.moves) {
+        const Vec3f at = model_place(positions_, step.moved.at);
+        return tracker_->plan(step.u, step.edge, &at);
+      }
+    }
+    tracker_->plan(step.u, step.edge);
+  }
+
+  template <class Step>
+  Refusal judge(const Step& step) {
+    if (!options_.tolerance) return Refusal::none;
+    plan(step);
+    return tracker_->planned_within(*options_.tolerance) ? Refusal::none : Refusal::tolerance;
+  }
+
+  CollapseMesh& mesh_;
+  const UnitPositions& positions_;
+  const SimplifyOptions& options_;
+  SimplifyResult& result_;
+  std::optional<LandingTracker> tracker_;
+};
+
+template <class Metric, class... MetricOptions>
+void run(CollapseMesh& mesh, UnitPositions& positions, const SimplifyOptions& options, SimplifyResult& result,
+         const MetricOptions&... how) {
+  Metric metric(mesh, positions, options.qem, how...);
+  Legality legality(mesh, positions, options.legality);
+  Course course(mesh, positions, options, result);
+  if (options.collapse == CollapseKind::half) {
+    CollapseLoop<Metric> loop(mesh, metric, legality);
+    course.run(loop, metric);
+    return;
+  }
+  if constexpr (requires { &Metric::place; }) {
+    mesh.allow_moves();
+    FullEdgeLoop<Metric> loop(mesh, positions, metric, legality);
+    course.run(loop, metric);
+  } else {
+    throw InputError(fmt::format("metric {}: expected half-edge collapses, got full-edge: it says nothing of places between vertices",
+                                 to_string(options.metric)));
+  }
 }
 
 }  // namespace
@@ -140,7 +227,16 @@ MetricName metric_named(const std::string& name) {
   throw InputError(fmt::format("metric: expected one of {}, got {}", known, name));
 }
 
-const char* to_string(StopReason reason) { return reason == StopReason::faces ? "faces" : "exhausted"; }
+const char* to_string(CollapseKind kind) { return kind == CollapseKind::half ? "half" : "full"; }
+
+const char* to_string(StopReason reason) {
+  switch (reason) {
+    case StopReason::faces: return "faces";
+    case StopReason::tolerance: return "tolerance";
+    case StopReason::exhausted: return "exhausted";
+  }
+  return "";
+}
 
 SimplifyResult simplify_mesh(const Mesh& mesh, const SimplifyOptions& options) {
   const DefaultFloatEnvironment environment;
@@ -150,36 +246,22 @@ SimplifyResult simplify_mesh(const Mesh& mesh, const SimplifyOptions& options) {
   SimplifyResult result;
   result.repair = triangles.repair();
   count_kinds(triangles, result);
-  const UnitPositions positions = unit_positions(triangles);
+  UnitPositions positions = unit_positions(triangles);
+  if (options.collapse == CollapseKind::full || options.metric == MetricName::qem5) require_one_wedge_a_corner(triangles);
   switch (options.metric) {
-    case MetricName::qem: {
-      QemMetric metric(triangles, positions, options.qem);
-      run(triangles, positions, metric, options, result);
-      break;
-    }
-    case MetricName::qem5: {
-      Qem5Metric metric(triangles, positions, options.qem, options.attribute_weight);
-      run(triangles, positions, metric, options, result);
-      break;
-    }
-    case MetricName::qem6: {
-      Qem6Metric metric(triangles, positions, options.qem, options.attribute_weight);
-      run(triangles, positions, metric, options, result);
-      break;
-    }
-    case MetricName::hoppe: {
-      HoppeMetric metric(triangles, positions, options.qem, options.attribute_weight);
-      run(triangles, positions, metric, options, result);
-      break;
-    }
-    case MetricName::kim: {
-      KimMetric metric(triangles, positions, options.qem, options.kim);
-      run(triangles, positions, metric, options, result);
-      break;
-    }
+    case MetricName::qem: run<QemMetric>(triangles, positions, options, result); break;
+    case MetricName::qem5: run<Qem5Metric>(triangles, positions, options, result, options.attribute_weight); break;
+    case MetricName::qem6: run<Qem6Metric>(triangles, positions, options, result, options.attribute_weight); break;
+    case MetricName::hoppe: run<HoppeMetric>(triangles, positions, options, result, options.attribute_weight); break;
+    case MetricName::kim: run<KimMetric>(triangles, positions, options, result, options.kim); break;
   }
   extract(triangles, result);
-  if (options.record_landings) measure_landings(mesh, result);
+  if (!result.landings.empty()) measure_landings(mesh, result);
+  if (options.tolerance) {
+    result.distance_audited = audit(mesh, result);
+    ETALON_CHECK(*result.distance_audited <= *options.tolerance,
+                 fmt::format("a vertex is {} from the result, the tolerance is {}", *result.distance_audited, *options.tolerance));
+  }
   return result;
 }
 

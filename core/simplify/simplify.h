@@ -1,5 +1,5 @@
-// Fewer triangles: half-edge collapses in strict order of cost, on real meshes.
-// Does not: weld vertices that share a place (core/mesh/weld.h does), move vertices, or resample attributes.
+// Fewer triangles: edge collapses in strict order of cost, on real meshes.
+// Does not: weld vertices that share a place (core/mesh/weld.h does), or resample images.
 #pragma once
 
 #include <array>
@@ -24,16 +24,27 @@ inline constexpr std::array kMetricNames{MetricName::qem, MetricName::qem5, Metr
 /// InputError for a name that is none.
 [[nodiscard]] MetricName metric_named(const std::string& name);
 
+enum class CollapseKind : std::uint8_t {
+  half,  ///< a vertex goes into a neighbour, which stays as it is (figure 1b)
+  full,  ///< both ends go to where the metric is least (figure 1a): not for kim
+};
+[[nodiscard]] const char* to_string(CollapseKind kind);
+
 /// One collapse as it happens, before the mesh changes.
 struct CollapseEvent {
   std::uint32_t u = kNone, v = kNone;  ///< engine vertices: u goes into v
   CollapseMesh::Edge edge;             ///< edge_from(u, …)
   double cost = 0;                     ///< in the metric's own unit
+  bool moves = false;                  ///< whether v moves as well
 };
 
 struct SimplifyOptions {
   MetricName metric = MetricName::qem;
-  std::size_t target_faces = 0;      ///< stop at the first count that is not above it: one below where an inner edge passes it
+  CollapseKind collapse = CollapseKind::half;
+  std::size_t target_faces = 0;  ///< stop at the first count that is not above it: one below where an inner edge passes it
+  /// No vertex of the input may come to lie farther than this from the result (model units, ≥ 0): guaranteed, and audited at the end against all faces
+  /// of the result. Implies record_landings.
+  std::optional<double> tolerance;
   std::vector<VertexId> locked;      ///< vertices that stay where they are; others may still collapse into them
   bool refuse_non_manifold = false;  ///< InputError for an input that is no oriented manifold, instead of locking those places
   bool record_landings = false;      ///< fill SimplifyResult::landings; at 10 % about twice the time
@@ -52,6 +63,7 @@ struct SimplifyOptions {
 
 enum class StopReason : std::uint8_t {
   faces,      ///< the target is reached
+  tolerance,  ///< no legal collapse is left, and some were refused for the tolerance
   exhausted,  ///< no legal collapse is left
 };
 [[nodiscard]] const char* to_string(StopReason reason);
@@ -59,9 +71,10 @@ enum class StopReason : std::uint8_t {
 struct SimplifyResult {
   /// Survivors in the order of the input: vertices, wedges, faces; corners of a face keep their order.
   Mesh mesh;
-  std::vector<VertexId> source_vertex;  ///< #V of mesh: its vertex of the input
-  std::vector<WedgeId> source_wedge;    ///< #W of mesh: its wedge of the input
-  std::vector<FaceId> source_face;      ///< #F of mesh: its face of the input
+  std::vector<VertexId>
+      source_vertex;                  ///< #V of mesh: its vertex of the input; with full-edge collapses the one that it was before it moved
+  std::vector<WedgeId> source_wedge;  ///< #W of mesh: its wedge of the input
+  std::vector<FaceId> source_face;    ///< #F of mesh: its face of the input
   StopReason stop = StopReason::faces;
   std::size_t collapse_count = 0;
   double max_cost = 0;  ///< largest cost paid, in the metric's own unit
@@ -75,12 +88,15 @@ struct SimplifyResult {
   std::vector<Landing> landings;           ///< #V of the input, on `mesh`; empty unless recorded
   /// Largest distance of a vertex of the input to its landing: no vertex is farther from `mesh` than that. Nothing unless landings are recorded.
   std::optional<double> distance_max;
+  /// With a tolerance: the largest distance of a vertex of the input to the nearest point of all of `mesh`; at most distance_max, up to rounding.
+  std::optional<double> distance_audited;
 };
 
 /// Collapses until the target or until nothing legal is left. The same bytes for every machine, compiler and thread count: double arithmetic in a
 /// written order, ties by lowest vertex, then lowest target.
-/// InputError where the mesh has no faces, an index is out of range, a position or uv is not finite, a locked vertex does not exist, or, with
-/// refuse_non_manifold, with count and place of what is not manifold.
+/// InputError where the mesh has no faces, an index is out of range, a position or uv is not finite, a locked vertex does not exist, an attribute of the
+/// metric is missing, a corner of a chart has two wedges (full-edge collapses and qem5: weld first), or, with refuse_non_manifold, with count and
+/// place of what is not manifold.
 [[nodiscard]] SimplifyResult simplify_mesh(const Mesh& mesh, const SimplifyOptions& options);
 
 /// The face count that keeps `ratio` of `faces`: ratio·faces rounded to the nearest integer, halves up. ratio: 0 to 1 (InputError).

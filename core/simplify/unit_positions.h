@@ -16,6 +16,11 @@ struct UnitPositions {
   double longest = 1;  ///< scaled length of the box's longest side; 1 for a mesh of one point
 };
 
+/// A place of the unit cube in model units: exact, but for what a float32 cannot hold.
+[[nodiscard]] inline Vec3f model_place(const UnitPositions& positions, const Vec3f& at) {
+  return {static_cast<float>(at.x * positions.unit), static_cast<float>(at.y * positions.unit), static_cast<float>(at.z * positions.unit)};
+}
+
 [[nodiscard]] UnitPositions unit_positions(const CollapseMesh& mesh);
 
 }  // namespace etalon::simplify

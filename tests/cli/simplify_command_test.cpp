@@ -121,14 +121,42 @@ TEST_CASE("simplify: --metric kim on vertex colours") {
   check_refused({"simplify", "square.obj", "--faces", "1", "--metric", "kim", "--unit", "0", "-o", "a.ply"}, 64, folder, "unit");
 }
 
+TEST_CASE("simplify: --collapse full and --tolerance") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "swirl", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code == 0);
+  const CommandResult full =
+      run_etalon({"simplify", "swirl.obj", "--faces", "300", "--collapse", "full", "--metric", "qem5", "-o", "full.obj", "--json", "-"},
+                 {.folder = folder.path()});
+  REQUIRE(full.exit_code == 0);
+  CHECK(checked_document(full, "simplify.json")["collapse"] == "full");
+  for (const std::string collapse : {"half", "full"}) {
+    const CommandResult near = run_etalon(
+        {"simplify", "swirl.obj", "--tolerance", "1%", "--collapse", collapse, "-o", "near.obj", "--json", "-"}, {.folder = folder.path()});
+    REQUIRE(near.exit_code == 0);
+    const json document = checked_document(near, "simplify.json");
+    CHECK(document["tolerance"].get<double>() > 0);
+    CHECK(document["distance_audited"].get<double>() <= document["tolerance"].get<double>());
+    CHECK(document["target_faces"] == 0);
+  }
+  const CommandResult early =
+      run_etalon({"simplify", "swirl.obj", "--faces", "2", "--tolerance", "0", "-o", "early.obj"}, {.folder = folder.path()});
+  CHECK(early.exit_code == 1);
+  check_refused({"simplify", "swirl.obj", "--tolerance", "-1", "-o", "a.obj"}, 64, folder, "--tolerance: expected a length");
+  check_refused({"simplify", "swirl.obj", "--tolerance", "1%%", "-o", "a.obj"}, 64, folder, "--tolerance: expected a length");
+  check_refused({"simplify", "swirl.obj", "--tolerance", "near", "-o", "a.obj"}, 64, folder, "--tolerance: expected a length");
+  check_refused({"simplify", "swirl.obj", "--faces", "9", "--collapse", "full", "--metric", "kim", "-o", "a.obj"}, 64, folder,
+                "--collapse half");
+  check_refused({"simplify", "swirl.obj", "--faces", "9", "--collapse", "quarter", "-o", "a.obj"}, 64, folder, "quarter");
+}
+
 TEST_CASE("simplify: refusals") {
   const ScratchFolder folder;
   folder.file("square.obj", square_obj());
   folder.file("broken.obj", "v 0 0 0\nf 1 2 3\n");
   check_refused({"simplify"}, 64, folder, "simplify:");
-  check_refused({"simplify", "square.obj", "-o", "a.obj"}, 64, folder, "expected one of --faces and --ratio");
+  check_refused({"simplify", "square.obj", "-o", "a.obj"}, 64, folder, "expected one of --faces, --ratio and --tolerance");
   check_refused({"simplify", "square.obj", "--faces", "1", "--ratio", "0.5", "-o", "a.obj"}, 64, folder,
-                "expected one of --faces and --ratio");
+                "expected one of --faces and --ratio, got both");
   check_refused({"simplify", "square.obj", "--faces", "1"}, 64, folder, "output");
   check_refused({"simplify", "square.obj", "--faces", "1", "-o", "-"}, 64, folder, "-o FILE");
   check_refused({"simplify", "square.obj", "--faces", "-1", "-o", "a.obj"}, 64, folder, "faces");
