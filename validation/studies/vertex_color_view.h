@@ -1,0 +1,50 @@
+// The image comparison of [Kim, Choi & Lee 2008, sec. 5.4]: a mesh drawn unlit in its vertex colours, and how far two such pictures are apart.
+#pragma once
+
+#include <optional>
+
+#include "core/draw/camera.h"
+#include "core/draw/renderer.h"
+#include "validation/bounds.h"
+#include "validation/texel_diff.h"
+
+namespace etalon::validation {
+
+struct VertexColorView {
+  Camera camera;
+  int width = 1024;
+  int height = 1024;
+};
+
+/// The draw list and the frame (colour as RGBA unorm8 on black, the default clear colour of OpenGL; triangle ids) of one view.
+/// InputError where the mesh has no vertex colours or breaks the contract's ranges.
+struct VertexColorScene {
+  DrawList list;
+  Frame frame;
+};
+[[nodiscard]] VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view);
+
+/// The colours alone.
+[[nodiscard]] Image draw_vertex_colors(Renderer& renderer, const Mesh& mesh, const VertexColorView& view);
+
+/// √(Σ (Δr² + Δg² + Δb²) / texels) over the whole image, in steps of 1/255: the RMS of the Euclidean distances between corresponding pixels.
+/// The sum is an exact integer. Both RGBA or RGB unorm8 of one size, else InputError.
+[[nodiscard]] double rgb_rms(const Image& a, const Image& b);
+
+/// The same view on a device, and every texel that differs put in a class.
+struct DeviceView {
+  Image color;
+  DiffResult diff;  ///< of colours and ids
+};
+/// UnavailableError where the device cannot draw it.
+[[nodiscard]] DeviceView draw_on_device(Renderer& exact, Renderer& device, const DeviceModel& model, const Mesh& mesh,
+                                        const VertexColorView& view);
+
+/// The part of `view` around the point (x, y) of the frame, 0 to 1 from its lower left, enlarged `factor` times: same eye, narrower angle.
+[[nodiscard]] VertexColorView close_up(const VertexColorView& view, double x, double y, double factor);
+
+/// Where `a` and `b` differ most: the centre, 0 to 1, of the window of 1/factor of the frame's sides with the largest sum of squared
+/// differences (on a raster of an eighth of the window); {½, ½} where nothing differs.
+[[nodiscard]] Vec2d worst_window(const Image& a, const Image& b, double factor);
+
+}  // namespace etalon::validation
