@@ -46,6 +46,10 @@ BenchOptions parse_options(const std::vector<std::string>& arguments) {
       options.all_levels = true;
     else if (option == "--only-ours")
       options.only_ours = true;
+    else if (option == "--long")
+      options.long_scenes = true;
+    else if (option == "--picture")
+      options.picture = value();
     else if (option == "--json")
       options.json = value();
     else if (option == "--page")
@@ -61,7 +65,9 @@ BenchOptions parse_options(const std::vector<std::string>& arguments) {
 std::string usage() {
   return fmt::format(
       "usage: etalon_bench [OPTIONS] [--benchmark_OPTIONS]\n"
-      "Times the CPU renderer, llvmpipe and the limits of memory in turns, on drawings that both get alike; prints the ratios.\n"
+      "Times the CPU renderer, llvmpipe and the limits of memory in turns, on drawings that both get alike; simplification beside CGAL, "
+      "OpenMesh\n"
+      "and meshoptimizer; the surface distance beside MeshLab. Prints the ratios.\n"
       "\n"
       "  --scene NAME       only scenes whose name contains NAME; may be repeated\n"
       "  --list             the names of the scenes\n"
@@ -73,8 +79,10 @@ std::string usage() {
       "  --rival-threads N  of llvmpipe alone; 0: it draws in the calling thread\n"
       "  --all-levels       ours at every SIMD level that this machine has\n"
       "  --only-ours        nothing but our renderer: for a profiler\n"
+      "  --long             also the scenes that take minutes: simplification of up to 10,000,000 faces\n"
       "  --json FILE        write the results\n"
-      "  --page FILE        put the tables into the measured block of a Markdown page\n"
+      "  --page FILE        put the tables into the measured blocks of a Markdown page\n"
+      "  --picture FILE     how the time of simplification grows, as SVG; needs --long\n"
       "  --from FILE        the tables from results written before; nothing is measured\n"
       "\n"
       "  etalon_bench --scene head --repetitions 25 --json head.json\n"

@@ -14,11 +14,13 @@ struct BenchOptions {
   int rival_threads = -1;           ///< llvmpipe's workers, 0: it draws in the calling thread; -1: as many as ours
   bool all_levels = false;          ///< ours at each SIMD level, not only at the reference and the best one
   bool only_ours = false;
+  bool long_scenes = false;  ///< also the scenes that take minutes: how simplification grows up to 10,000,000 faces
   bool list = false;
   bool help = false;
-  std::string json;  ///< file for the results
-  std::string page;  ///< Markdown file whose measured block is rewritten
-  std::string from;  ///< results of an earlier run to make the tables from; nothing is measured
+  std::string json;     ///< file for the results
+  std::string page;     ///< Markdown file whose measured block is rewritten
+  std::string picture;  ///< SVG file for how simplification grows
+  std::string from;     ///< results of an earlier run to make the tables from; nothing is measured
 };
 
 inline constexpr int kFewestRounds = 5;

@@ -19,6 +19,7 @@
 #include "tests/bench/bench_options.h"
 #include "tests/bench/fan_scene.h"
 #include "tests/bench/scene_bench.h"
+#include "tests/bench/surface_benches.h"
 #include "tests/support/skip.h"
 
 namespace etalon::bench {
@@ -47,6 +48,7 @@ std::vector<SceneEntry> all_entries() {
 /// What the run found out, scene by scene.
 struct Outcome {
   std::vector<SceneResult> results;
+  SurfaceResults surfaces;
   int failed = 0;
   int skipped = 0;
 };
@@ -110,10 +112,17 @@ std::vector<raster::SimdLevel> levels_beside_reference(bool all) {
 }
 
 void write_results(const nlohmann::ordered_json& document, const BenchOptions& options) {
-  const std::string tables = bench_tables(document);
   if (!options.json.empty()) io::write_file(options.json, document.dump(2) + "\n");
-  if (!options.page.empty()) io::write_file(options.page, with_tables(std::string(io::read_file(options.page).text()), tables));
-  fmt::print("\n{}\n", tables);
+  const std::string tables = document.at("scenes").empty() ? "" : bench_tables(document), surfaces = surface_tables(document);
+  if (!options.page.empty()) {
+    std::string page(io::read_file(options.page).text());
+    if (!tables.empty()) page = with_tables(page, tables);
+    if (!surfaces.empty()) page = with_surface_tables(page, surfaces);
+    io::write_file(options.page, page);
+  }
+  if (const std::string picture = surface_picture(document); !options.picture.empty() && !picture.empty())
+    io::write_file(options.picture, picture);
+  fmt::print("\n{}{}\n", tables, surfaces);
 }
 
 int measure(const BenchOptions& options) {
@@ -143,13 +152,21 @@ int measure(const BenchOptions& options) {
   PlainReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
-  if (!options.only_ours) write_results(bench_document(run, outcome.results), options);
-  fmt::print("bench: {} passed, {} failed, {} skipped\n", static_cast<int>(outcome.results.size()) - outcome.failed, outcome.failed,
+  if (!options.only_ours) {
+    outcome.surfaces = measure_surface_scenes(options);
+    outcome.skipped += outcome.surfaces.skipped;
+    nlohmann::ordered_json document = bench_document(run, outcome.results);
+    add_surface_results(outcome.surfaces, document);
+    write_results(document, options);
+  }
+  const std::size_t measured_scenes = outcome.results.size() + outcome.surfaces.measured;
+  fmt::print("bench: {} passed, {} failed, {} skipped\n", static_cast<int>(measured_scenes) - outcome.failed, outcome.failed,
              outcome.skipped);
   return outcome.failed > 0 ? kExitDifferent : kExitDone;
 }
 
 int run(int argc, char** argv) {
+  if (argc > 1 && argv[1] == std::string(kSimplifyChild)) return simplify_child({argv + 2, argv + argc});
   // Google Benchmark takes its own options out and leaves ours.
   std::vector<std::string> arguments;
   std::vector<char*> theirs{argv[0]};
@@ -172,10 +189,14 @@ int run(int argc, char** argv) {
   }
   if (options.list) {
     for (const SceneEntry& entry : all_entries()) fmt::print("{:20} {}\n", entry.name, entry.title);
+    for (const auto& [name, title] : surface_scene_titles()) fmt::print("{:20} {}\n", name, title);
     return kExitDone;
   }
   if (!options.from.empty()) {
-    write_results(nlohmann::ordered_json::parse(io::read_file(options.from).text(), nullptr, false), options);
+    const auto document = nlohmann::ordered_json::parse(io::read_file(options.from).text(), nullptr, false);
+    if (!document.is_object() || !document.contains("scenes"))
+      throw InputError(fmt::format("{}: expected a document of --json", options.from));
+    write_results(document, options);
     return kExitDone;
   }
   int their_count = static_cast<int>(theirs.size());

@@ -119,7 +119,8 @@ TEST_CASE("equal to the judge where it is hard: slivers, faces of no area, huge 
   check_against_judge(flat, bumpy_sphere(3, 0.2f, 1), 2000);
   const Mesh ball = coloured(bumpy_sphere(4, 0.3f, 3));
   for (const auto& [scale, offset] : {std::pair(0x1p+100f, 0.0f), {0x1p-100f, 0.0f}, {1.0f, 1e6f}, {0x1p-20f, 1.0f}}) {
-    CAPTURE(scale);
+    const float captured = scale;
+    CAPTURE(captured);
     Mesh moved = ball, other = coloured(bumpy_sphere(3, 0.1f, 7));
     for (Vec3f& p : moved.positions) p = p * scale + Vec3f(offset);
     for (Vec3f& p : other.positions) p = p * scale + Vec3f(offset);

@@ -1,0 +1,110 @@
+#include "tests/bench/surface_benches.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/simplify/simplify.h"
+#include "tests/bench/machine.h"
+#include "tests/bench/simplify_document.h"
+#include "tests/support/skip.h"
+
+namespace etalon::bench {
+namespace {
+
+constexpr const char* kMetroTitle = "distance of the knot of 100,000 faces and its tenth, beside MeshLab";
+
+void report(SurfaceResults& results, const std::string& scene, const std::vector<Figure>& figures) {
+  for (const Figure& figure : figures) {
+    const nlohmann::ordered_json json = figure_json(figure);
+    if (figure.values.empty()) {
+      test::report_skip(fmt::format("bench {}: {}", scene, figure.title), figure.skipped);
+      ++results.skipped;
+      continue;
+    }
+    fmt::print("{:24} {:48} {:8.3f} {} {} {}\n", scene, figure.title, json.at("median").get<double>(), json.at("sense").get<std::string>(),
+               figure.goal, json.at("verdict").get<std::string>());
+  }
+  std::fflush(stdout);
+}
+
+void absent(SurfaceResults& results, const std::string& scene) {
+  test::report_skip("bench " + scene, "a real input is absent");
+  ++results.skipped;
+}
+
+void measure_distance_scene(const BenchOptions& options, SurfaceResults& results) {
+  for (const SimplifyScene& scene : simplify_scenes()) {
+    if (scene.name != "simplify-knot100k") continue;
+    const std::optional<Mesh> mesh = scene.make();
+    if (!mesh) return absent(results, kMetroScene);
+    const Mesh small = simplify::simplify_mesh(*mesh, {.target_faces = mesh->face_count() / 10}).mesh;
+    results.metro = measure_metro(*mesh, small, std::min(options.repetitions, kFewestRounds));
+    ++results.measured;
+    report(results, kMetroScene, results.metro->figures);
+  }
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> surface_scene_titles() {
+  std::vector<std::pair<std::string, std::string>> titles;
+  for (const SimplifyScene& scene : simplify_scenes()) titles.emplace_back(scene.name, scene.title + (scene.is_long ? " (--long)" : ""));
+  titles.emplace_back(kMetroScene, kMetroTitle);
+  return titles;
+}
+
+SurfaceResults measure_surface_scenes(const BenchOptions& options) {
+  SurfaceResults results;
+  const SimplifyBenchOptions bench{
+      .program = std::filesystem::read_symlink("/proc/self/exe").string(), .rounds = options.repetitions, .seconds = options.seconds};
+  for (const SimplifyScene& scene : simplify_scenes()) {
+    if (!wants(options, scene.name) || (scene.is_long && !options.long_scenes)) continue;
+    const std::optional<Mesh> mesh = scene.make();
+    if (!mesh) {
+      absent(results, scene.name);
+      continue;
+    }
+    results.simplifications.push_back(measure_simplification(scene, *mesh, bench));
+    ++results.measured;
+    report(results, scene.name, results.simplifications.back().figures);
+  }
+  if (wants(options, kMetroScene)) measure_distance_scene(options, results);
+  return results;
+}
+
+void add_surface_results(const SurfaceResults& results, nlohmann::ordered_json& document) {
+  if (!results.simplifications.empty()) document["simplification"] = simplify_document(results.simplifications);
+  if (results.metro) document["metro"] = metro_document(*results.metro);
+}
+
+std::string surface_tables(const nlohmann::ordered_json& document) {
+  try {
+    std::string tables;
+    if (document.contains("simplification")) tables += simplify_tables(document.at("simplification"));
+    if (document.contains("metro")) tables += metro_tables(document.at("metro"));
+    if (tables.empty()) return tables;
+    const auto& machine = document.at("machine");
+    return fmt::format("Measured on {}: {}, {} cores, {}, {}; load {:.1f} at the start. One thread, CPU seconds of the library's call.\n\n",
+                       machine.at("date").get<std::string>(), machine.at("cpu").get<std::string>(), machine.at("cores").get<int>(),
+                       machine.at("system").get<std::string>(), machine.at("compiler").get<std::string>(),
+                       machine.at("load").get<double>()) +
+           tables;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("expected a document of --json: {}", error.what()));
+  }
+}
+
+std::string surface_picture(const nlohmann::ordered_json& document) {
+  return document.contains("simplification") ? growth_picture(document.at("simplification")) : "";
+}
+
+std::string with_surface_tables(const std::string& page, const std::string& tables) {
+  const auto begin = page.find(kSurfaceBlockBegin), end = page.find(kSurfaceBlockEnd);
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw InputError("expected the lines that begin and end the measured block of surfaces");
+  return page.substr(0, begin) + kSurfaceBlockBegin + "\n" + tables + "\n" + page.substr(end);
+}
+
+}  // namespace etalon::bench

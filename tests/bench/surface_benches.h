@@ -1,0 +1,39 @@
+// The scenes of simplification and of the surface distance, as etalon_bench runs them beside the drawings.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/bench/bench_options.h"
+#include "tests/bench/metro_bench.h"
+#include "tests/bench/simplify_bench.h"
+
+namespace etalon::bench {
+
+struct SurfaceResults {
+  std::vector<SimplifySceneResult> simplifications;
+  std::optional<MetroBenchResult> metro;
+  std::size_t measured = 0;
+  int skipped = 0;
+};
+
+/// Names and titles, in order.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> surface_scene_titles();
+
+/// Those that the options ask for.
+[[nodiscard]] SurfaceResults measure_surface_scenes(const BenchOptions& options);
+
+/// As document["simplification"] and document["metro"], where there are any.
+void add_surface_results(const SurfaceResults& results, nlohmann::ordered_json& document);
+/// Of such a document; empty where it has none.
+[[nodiscard]] std::string surface_tables(const nlohmann::ordered_json& document);
+[[nodiscard]] std::string surface_picture(const nlohmann::ordered_json& document);
+/// The page with its second measured block replaced. InputError where it has none.
+[[nodiscard]] std::string with_surface_tables(const std::string& page, const std::string& tables);
+
+inline constexpr const char* kSurfaceBlockBegin = "<!-- measured surfaces: begin (etalon_bench --page) -->\n";
+inline constexpr const char* kSurfaceBlockEnd = "<!-- measured surfaces: end -->\n";
+
+}  // namespace etalon::bench
