@@ -5,7 +5,6 @@
 #include <span>
 #include <utility>
 
-#include "core/simplify/collapse_candidate.h"
 #include "core/simplify/curve_planes.h"
 #include "core/simplify/moved_vertex.h"
 #include "core/simplify/placement.h"
@@ -61,9 +60,6 @@ class AttributeMetric {
     double sum = own_cost(v);
     for (const auto& [from, to] : sides(u, v, h)) sum += evaluate(quadrics_[from], step(u, from, v, to));
     return sum > 0 ? sum : 0;
-  }
-  void price(std::uint32_t u, std::span<CollapseCandidate> candidates) const {
-    for (CollapseCandidate& candidate : candidates) candidate.cost = cost(u, candidate.target, candidate.half_edge);
   }
   /// A cost as a squared length in the unit cube's space of positions and attributes.
   [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v, double cost) const {

@@ -1,9 +1,9 @@
 // The strict loop: at each step the one legal half-edge collapse of least (cost, vertex, target), over the whole mesh.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
-#include <span>
 
 #include "core/simplify/collapse_candidate.h"
 #include "core/simplify/collapse_queue.h"
@@ -11,9 +11,10 @@
 
 namespace etalon::simplify {
 
-/// Metric: double cost(u, v, half-edge between them) (never NaN), of the states of u and v and the faces of u; price(u, candidates), the same for
-/// several; collapse(u, v, edge), the state of v after u went into it, called before the faces change; and kCostsAreLocal: whether a cost leaves
-/// the other faces of u out, so that a vertex that loses a neighbour keeps its other costs.
+/// Metric: double cost(u, v, half-edge between them) (never NaN, ≥ 0), of the states of u and v and the faces of u; collapse(u, v, edge), the state
+/// of v after u went into it, called before the faces change; and kCostsAreLocal: whether a cost leaves the other faces of u out, so
+/// that a vertex that loses a neighbour keeps its other costs. Where costs are dear it may have bounds as well: bound(u, v), never above the cost as
+/// computed; bound(u, candidates), of all into their cost; and then cost_of_bounded(u, v, bound), the bits of cost(u, v, …).
 ///
 /// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged then; a
 /// refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of the
@@ -32,7 +33,7 @@ class CollapseLoop {
       : mesh_(mesh), metric_(metric), legality_(legality), queue_(mesh.vertex_capacity()), refused_(mesh.vertex_capacity(), false) {
     std::vector<QueuedCollapse> entries;
     for (std::uint32_t u = 0; u < mesh_.vertex_capacity(); ++u)
-      if (const QueuedCollapse best = best_of(u); best.target != kNone) entries.push_back(best);
+      if (const QueuedCollapse entry = entry_of(u); entry.target != kNone) entries.push_back(entry);
     queue_.assign(std::move(entries));
   }
 
@@ -41,6 +42,10 @@ class CollapseLoop {
   [[nodiscard]] Step find(const Accept& accept) {
     while (!queue_.empty()) {
       const QueuedCollapse top = queue_.top();
+      if (top.target == kUnpriced) {
+        requeue(best_of(top.vertex));
+        continue;
+      }
       const Step step{top.vertex, top.target, mesh_.find_edge(top.vertex, top.target), top.cost};
       Refusal refusal = legality_.check(top.vertex, step.edge);
       if (refusal == Refusal::none) refusal = accept(step);
@@ -62,7 +67,7 @@ class CollapseLoop {
     queue_.remove(step.u);
     metric_.collapse(step.u, step.v, step.edge);
     mesh_.collapse(step.u, step.edge);
-    requeue(best_of(step.v));
+    requeue(entry_of(step.v));
     // What was near u is near v now. Vertices that lost u as a neighbour: their faces changed. The others only see v's new cost.
     mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t h) {
       for (const std::uint32_t n : near_)
@@ -75,6 +80,9 @@ class CollapseLoop {
   [[nodiscard]] const CollapseQueue& queue() const { return queue_; }
 
  private:
+  static constexpr std::uint32_t kUnpriced = kNone - 1;
+  static constexpr bool kHasBounds = requires(Metric & m) { m.bound(0u, 0u); };
+
   static bool before(double cost_a, std::uint32_t a, double cost_b, std::uint32_t b) { return cost_a != cost_b ? cost_a < cost_b : a < b; }
 
   // Calls visit(v, half-edge) for every neighbour that u's kind lets it go to.
@@ -87,26 +95,45 @@ class CollapseLoop {
     });
   }
 
-  std::span<const CollapseCandidate> priced(std::uint32_t u) {
+  // The least candidate behind (cost, target).
+  [[nodiscard]] QueuedCollapse least_behind(std::uint32_t u, double cost, std::uint32_t target) {
     candidates_.clear();
     for_each_candidate(u, [&](std::uint32_t v, std::uint32_t h) { candidates_.push_back({v, h}); });
-    metric_.price(u, candidates_);
-    return candidates_;
+    QueuedCollapse best{std::numeric_limits<double>::infinity(), u, kNone};
+    const auto consider = [&](double here, std::uint32_t v) {
+      if (before(cost, target, here, v) && before(here, v, best.cost, best.target)) best = {here, u, v};
+    };
+    if constexpr (kHasBounds) {
+      // By rising bounds: once a bound is above the best cost, so are all costs behind it.
+      metric_.bound(u, candidates_);
+      std::sort(candidates_.begin(), candidates_.end(),
+                [](const CollapseCandidate& a, const CollapseCandidate& b) { return before(a.cost, a.target, b.cost, b.target); });
+      for (const auto& [v, h, bound] : candidates_) {
+        if (bound > best.cost) break;
+        consider(metric_.cost_of_bounded(u, v, bound), v);
+      }
+    } else {
+      for (const auto& [v, h, unused] : candidates_) consider(metric_.cost(u, v, h), v);
+    }
+    return best;
   }
-
   [[nodiscard]] QueuedCollapse best_of(std::uint32_t u) {
     refused_[u] = false;
-    QueuedCollapse best{std::numeric_limits<double>::infinity(), u, kNone};
-    for (const auto& [v, h, cost] : priced(u))
-      if (before(cost, v, best.cost, best.target)) best = {cost, u, v};
-    return best;
+    return least_behind(u, -1, 0);
+  }
+  [[nodiscard]] QueuedCollapse best_after(const QueuedCollapse& refused) {
+    return least_behind(refused.vertex, refused.cost, refused.target);
   }
 
-  [[nodiscard]] QueuedCollapse best_after(const QueuedCollapse& refused) {
-    QueuedCollapse best{std::numeric_limits<double>::infinity(), refused.vertex, kNone};
-    for (const auto& [v, h, cost] : priced(refused.vertex))
-      if (before(refused.cost, refused.target, cost, v) && before(cost, v, best.cost, best.target)) best = {cost, refused.vertex, v};
-    return best;
+  // Whether u→v now comes before u's entry; then it takes its place.
+  void see_cost(std::uint32_t u, std::uint32_t v, std::uint32_t h, const QueuedCollapse& entry) {
+    if constexpr (kHasBounds) {
+      const double bound = metric_.bound(u, v);
+      if (bound > entry.cost) return;
+      if (entry.target == kUnpriced) return queue_.set({bound, u, kUnpriced});
+    }
+    const double cost = metric_.cost(u, v, h);
+    if (before(cost, v, entry.cost, entry.target)) queue_.set({cost, u, v});
   }
 
   void requeue(const QueuedCollapse& entry) {
@@ -116,19 +143,36 @@ class CollapseLoop {
       queue_.set(entry);
   }
 
+  // What waits in the queue for a vertex whose costs may all have changed: where costs are dear, the least of their bounds, and they are worked out
+  // when it comes to the top.
+  [[nodiscard]] QueuedCollapse entry_of(std::uint32_t w) {
+    if constexpr (kHasBounds) {
+      refused_[w] = false;
+      QueuedCollapse entry{std::numeric_limits<double>::infinity(), w, kNone};
+      for_each_candidate(w, [&](std::uint32_t v, std::uint32_t) { entry = {std::min(entry.cost, metric_.bound(w, v)), w, kUnpriced}; });
+      return entry;
+    } else {
+      return best_of(w);
+    }
+  }
+
   // w's faces changed. Without a refusal, and with its best elsewhere, only the way to v can have become better.
   void refresh(std::uint32_t w, std::uint32_t h, const Step& step) {
     if constexpr (Metric::kCostsAreLocal) {
       if (!refused_[w] && mesh_.kind(w) == VertexKind::interior && queue_.contains(w)) {
         const QueuedCollapse& entry = queue_.of(w);
-        if (entry.target != step.u && entry.target != step.v) {
-          const double cost = metric_.cost(w, step.v, h);
-          if (before(cost, step.v, entry.cost, entry.target)) queue_.set({cost, w, step.v});
-          return;
-        }
+        if (entry.target != step.u && entry.target != step.v) return see_cost(w, step.v, h, entry);
       }
     }
-    requeue(best_of(w));
+    if constexpr (kHasBounds) {
+      // The bounds that make up w's are the same, but for those of the ways to u and v.
+      if (mesh_.kind(w) == VertexKind::interior && queue_.contains(w) && queue_.of(w).target == kUnpriced) {
+        const double bound = metric_.bound(w, step.v);
+        if (bound < queue_.of(w).cost) queue_.set({bound, w, kUnpriced});
+        return;
+      }
+    }
+    requeue(entry_of(w));
   }
 
   void see_new_cost(std::uint32_t w, std::uint32_t v, std::uint32_t h) {
@@ -136,13 +180,9 @@ class CollapseLoop {
     if (kind == VertexKind::locked || (kind == VertexKind::curve && !mesh_.on_curve(h))) return;
     if (!refused_[w] && queue_.contains(w)) {
       const QueuedCollapse& entry = queue_.of(w);
-      if (entry.target != v) {
-        const double cost = metric_.cost(w, v, h);
-        if (before(cost, v, entry.cost, entry.target)) queue_.set({cost, w, v});
-        return;
-      }
+      if (entry.target != v) return see_cost(w, v, h, entry);
     }
-    requeue(best_of(w));
+    requeue(entry_of(w));
   }
 
   CollapseMesh& mesh_;

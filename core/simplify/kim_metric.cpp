@@ -32,7 +32,7 @@ KimMetric::KimMetric(const CollapseMesh& mesh, const UnitPositions& positions, c
     if (!mesh.vertex_alive(v)) continue;
     double sum = 0, largest = 0;
     mesh.for_each_neighbor(v, [&](std::uint32_t n, std::uint32_t) {
-      const double distance = color_distance(v, n);
+      const double distance = std::sqrt(squared_color_distance(point(v), point(n)));  // eq. 13
       sum += distance;
       largest = std::max(largest, distance);
     });
@@ -41,22 +41,59 @@ KimMetric::KimMetric(const CollapseMesh& mesh, const UnitPositions& positions, c
   }
 }
 
-// Equation 13.
-double KimMetric::color_distance(std::uint32_t a, std::uint32_t b) const {
-  const Vec4f &x = mesh_.source().colors[mesh_.origin(a)], &y = mesh_.source().colors[mesh_.origin(b)];
-  return std::sqrt(etalon::squared_distance(Vec3d(x.x, x.y, x.z), Vec3d(y.x, y.y, y.z)));
+KimMetric::Point KimMetric::point(std::uint32_t v) const {
+  const Vec3f& at = places_[v];
+  const Vec4f& color = mesh_.color(v);
+  return {at.x, at.y, at.z, color.x, color.y, color.z};
+}
+
+double KimMetric::squared_color_distance(const Point& a, const Point& b) {
+  const double dr = a.r - b.r, dg = a.g - b.g, db = a.b - b.b;
+  return dr * dr + dg * dg + db * db;
+}
+
+// ‖ca − cb‖·‖va − vb‖; the same bits for (b, a).
+double KimMetric::product(const Point& a, const Point& b) {
+  const double dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z;
+  return std::sqrt(squared_color_distance(a, b) * (dx * dx + dy * dy + dz * dz));
 }
 
 double KimMetric::color_error(std::uint32_t u, std::uint32_t v) const {
-  const auto length = [&](std::uint32_t a, std::uint32_t b) {
-    const Vec3d d = difference_of(places_[a], places_[b]);
-    return std::sqrt(dot_product(d, d));
-  };
+  const Point at_u = point(u), at_v = point(v);
   double sum = 0;
   mesh_.for_each_neighbor(u, [&](std::uint32_t n, std::uint32_t) {
-    sum += std::fabs(color_distance(u, n) * length(u, n) - color_distance(v, n) * length(v, n));
+    const Point near = point(n);
+    sum += std::fabs(product(at_u, near) - product(at_v, near));
   });
   return sum * length_;
+}
+
+void KimMetric::bound(std::uint32_t u, std::span<CollapseCandidate> candidates) {
+  for (CollapseCandidate& candidate : candidates) candidate.cost = bound(u, candidate.target);
+  loaded_ = kNone;
+}
+
+void KimMetric::load(std::uint32_t u) {
+  loaded_ = u;
+  near_.clear();
+  points_.clear();
+  mesh_.for_each_neighbor(u, [&](std::uint32_t n, std::uint32_t) {
+    near_.push_back(n);
+    points_.push_back(point(n));
+  });
+  products_.resize(points_.size());
+  terms_.resize(points_.size());
+  const Point at_u = point(u);
+  for (std::size_t i = 0; i < points_.size(); ++i) products_[i] = product(at_u, points_[i]);
+}
+
+double KimMetric::cost_of_bounded(std::uint32_t u, std::uint32_t v, double bound) {
+  if (loaded_ != u) load(u);
+  const Point at_v = points_[static_cast<std::size_t>(std::find(near_.begin(), near_.end(), v) - near_.begin())];
+  for (std::size_t i = 0; i < points_.size(); ++i) terms_[i] = std::fabs(products_[i] - product(at_v, points_[i]));
+  double sum = 0;
+  for (const double term : terms_) sum += term;
+  return bound * (1 + sum * length_);
 }
 
 void KimMetric::collapse(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) {

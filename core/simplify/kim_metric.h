@@ -2,6 +2,9 @@
 // [Kim, Choi & Lee 2008, sec. 4].
 #pragma once
 
+#include <span>
+
+#include "core/simplify/collapse_candidate.h"
 #include "core/simplify/qem_metric.h"
 
 namespace etalon::simplify {
@@ -23,13 +26,15 @@ class KimMetric {
   KimMetric(const CollapseMesh& mesh, const UnitPositions& positions, const QemOptions& qem, const KimOptions& options);
 
   /// (1 + Q)(1 + I(u))(1 + C(u→v)) (eq. 17), lengths in units of `unit`.
-  [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v) const {
-    return (1 + qem_.cost(u, v) * length4_) * (1 + static_cast<double>(importance_[u])) * (1 + color_error(u, v));
-  }
+  [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v) const { return bound(u, v) * (1 + color_error(u, v)); }
   [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v, std::uint32_t) const { return cost(u, v); }
-  void price(std::uint32_t u, std::span<CollapseCandidate> candidates) const {
-    for (CollapseCandidate& candidate : candidates) candidate.cost = cost(u, candidate.target);
+  /// (1 + Q)(1 + I(u)): not above the cost, since a product with 1 + C ≥ 1 rounds to no less.
+  [[nodiscard]] double bound(std::uint32_t u, std::uint32_t v) const {
+    return (1 + qem_.cost(u, v) * length4_) * (1 + static_cast<double>(importance_[u]));
   }
+  /// Of all, and what cost_of_bounded() needs of u's neighbours.
+  void bound(std::uint32_t u, std::span<CollapseCandidate> candidates);
+  [[nodiscard]] double cost_of_bounded(std::uint32_t u, std::uint32_t v, double bound);
   /// Of the quadrics alone.
   [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v, double) const {
     return qem_.squared_distance(u, v, qem_.cost(u, v));
@@ -37,7 +42,8 @@ class KimMetric {
 
   /// I(v) (eqs. 14, 15).
   [[nodiscard]] double importance(std::uint32_t v) const { return importance_[v]; }
-  /// C(u→v) (eq. 16, its last factor read as ‖v1 − vi‖), over the neighbours that u has now.
+  /// C(u→v) (eq. 16, its last factor read as ‖v1 − vi‖), over the neighbours that u has now; each product of a colour distance and a length as one
+  /// square root.
   [[nodiscard]] double color_error(std::uint32_t u, std::uint32_t v) const;
 
   void collapse(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge);
@@ -46,13 +52,25 @@ class KimMetric {
   }
 
  private:
-  [[nodiscard]] double color_distance(std::uint32_t a, std::uint32_t b) const;
+  /// What equation 16 asks of a vertex.
+  struct Point {
+    double x, y, z, r, g, b;
+  };
+  [[nodiscard]] Point point(std::uint32_t v) const;
+  static double squared_color_distance(const Point& a, const Point& b);
+  static double product(const Point& a, const Point& b);
+  void load(std::uint32_t u);
 
   const CollapseMesh& mesh_;
   const std::vector<Vec3f>& places_;
   QemMetric qem_;
   double length_ = 1, length4_ = 1;  // a length of 1 of the unit cube, and its fourth power, in units
   std::vector<float> importance_, largest_;
+  // Of the vertex in hand: its neighbours, and their products with it.
+  std::uint32_t loaded_ = kNone;
+  std::vector<std::uint32_t> near_;
+  std::vector<Point> points_;
+  std::vector<double> products_, terms_;
 };
 
 }  // namespace etalon::simplify

@@ -4,7 +4,6 @@
 
 #include <span>
 
-#include "core/simplify/collapse_candidate.h"
 #include "core/simplify/curve_planes.h"
 #include "core/simplify/moved_vertex.h"
 #include "core/simplify/placement.h"
@@ -27,9 +26,6 @@ class QemMetric {
     return q > 0 ? q : 0;
   }
   [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v, std::uint32_t) const { return cost(u, v); }
-  void price(std::uint32_t u, std::span<CollapseCandidate> candidates) const {
-    for (CollapseCandidate& candidate : candidates) candidate.cost = cost(u, candidate.target);
-  }
 
   /// A cost as a squared length of the unit cube: the weighted mean squared distance of v to the planes of both.
   [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v, double cost) const {
