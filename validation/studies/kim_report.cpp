@@ -92,18 +92,22 @@ StudyTable image_table(const KimStudyResult& result) {
       .title = "Table 3: difference of pictures",
       .note = fmt::format(
           "RMS over all pixels of the Euclidean distance of RGB, in steps of 1/255, vertex colours without light on black: the view "
-          "\"fit\" at {0}×{0}, and the mean of {1} views at {2}×{2}. {3}",
+          "\"fit\" at {0}×{0}, and the mean of {1} views at {2}×{2}. {3} inside: the one view where both pictures show the surface; "
+          "outline: share of the squared error where only one does.",
           result.picture_px, result.view_count, result.views_px,
           device ? "OpenGL: the same from pictures that the device drew." : "OpenGL was not available."),
-      .columns = {"model", "method", "one view", "mean of the views", "OpenGL, one view", "kim/this: one view", "kim/this: views", "paper"},
+      .columns = {"model", "method", "one view", "mean of the views", "OpenGL, one view", "inside", "outline %", "kim/this: one view",
+                  "kim/this: views", "kim/this: inside", "paper"},
       .rows = {}};
   for (const KimSubjectResult& s : result.subjects) {
     const KimOutcome& kim = s.of(KimMethod::kim);
     for (const KimOutcome& o : s.outcomes) {
       const bool rival = o.method == KimMethod::qem6 || o.method == KimMethod::qem6_full, other = o.method != KimMethod::kim;
       table.rows.push_back({word(s.name), word(to_string(o.method)), number_cell(o.image_rms, 3), number_cell(o.image_rms_views, 3),
-                            number_cell(o.device_image_rms, 3), number_cell(other ? ratio(kim.image_rms, o.image_rms) : std::nullopt, 2),
+                            number_cell(o.device_image_rms, 3), number_cell(o.inside_rms, 3), number_cell(100 * o.outline_share, 0),
+                            number_cell(other ? ratio(kim.image_rms, o.image_rms) : std::nullopt, 2),
                             number_cell(other ? ratio(kim.image_rms_views, o.image_rms_views) : std::nullopt, 2),
+                            number_cell(other ? ratio(kim.inside_rms, o.inside_rms) : std::nullopt, 2),
                             number_cell(rival ? paper_ratio(s, &KimPaperRow::kim_image, &KimPaperRow::qem6_image) : std::nullopt, 2)});
     }
   }

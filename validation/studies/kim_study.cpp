@@ -38,10 +38,12 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 /// The original, its pictures drawn once.
 struct Originals {
   VertexColorView front;
-  Image front_image;
+  DrawnView drawn;
+  ShownSquare shown;
   std::optional<Image> device_image;
   std::vector<VertexColorView> views;
   std::vector<Image> view_images;
+  [[nodiscard]] Image shown_part(const Image& picture) const { return crop(picture, shown.x, shown.y, shown.side); }
 };
 
 class Steps {
@@ -61,8 +63,9 @@ Originals draw_originals(const KimSubject& subject, KimSubjectResult& result, Re
   Originals originals;
   const BoundingBox box = bounding_box(subject.mesh);
   originals.front = {named_view("fit", box, options.picture_px, options.picture_px), options.picture_px, options.picture_px};
-  originals.front_image = draw_vertex_colors(exact, subject.mesh, originals.front);
-  result.picture = picture_of(originals.front_image);
+  originals.drawn = draw_view(exact, subject.mesh, originals.front);
+  originals.shown = shown_square(originals.drawn);
+  result.picture = originals.shown_part(picture_of(originals.drawn.color));
   if (options.device != nullptr) {
     DeviceView device = draw_on_device(exact, *options.device, options.device_model, subject.mesh, originals.front);
     result.device_classes = device.diff.counts;
@@ -83,10 +86,13 @@ void measure(const KimSubject& subject, const Mesh& simplified, const Originals&
   outcome.rms = distance.rms() * percent;
   outcome.max = distance.max() * percent;
   outcome.color_rms = distance.colour_rms().value_or(0);
-  const Image drawn = draw_vertex_colors(exact, simplified, originals.front);
-  outcome.image_rms = rgb_rms(originals.front_image, drawn);
-  outcome.picture = picture_of(drawn);
-  outcome.error = error_picture(originals.front_image, drawn, 0);
+  const DrawnView drawn = draw_view(exact, simplified, originals.front);
+  const PictureError error = picture_error(originals.drawn, drawn);
+  outcome.image_rms = error.rms;
+  outcome.inside_rms = error.inside_rms;
+  outcome.outline_share = error.outline_share;
+  outcome.picture = originals.shown_part(picture_of(drawn.color));
+  outcome.error = originals.shown_part(error_picture(originals.drawn.color, drawn.color, 0));
   if (options.device != nullptr) {
     const DeviceView device = draw_on_device(exact, *options.device, options.device_model, simplified, originals.front);
     outcome.device_classes = device.diff.counts;
@@ -105,8 +111,9 @@ void take_close_ups(const KimSubject& subject, const std::vector<Mesh>& meshes, 
   for (std::size_t i = 0; i < result.outcomes.size(); ++i)
     if (result.outcomes[i].method == KimMethod::kim) kim = i;
   const Image worst = draw_vertex_colors(exact, meshes[kim], originals.front);
-  const Vec2d at = worst_window(originals.front_image, worst, kCloseUp);
-  const VertexColorView near = close_up(originals.front, at.x, at.y, kCloseUp);
+  const Vec2d at = worst_window(originals.drawn.color, worst, kCloseUp);
+  VertexColorView near = close_up(originals.front, at.x, at.y, kCloseUp);
+  near.width = near.height = std::max(1, originals.front.width / 2);
   const Image original = draw_vertex_colors(exact, subject.mesh, near);
   result.closeup = picture_of(original);
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -131,7 +138,7 @@ std::vector<KimSweepPoint> sweep_units(const KimSubject& subject, const KimSubje
     const SurfaceDistance distance = measure_surfaces(subject.mesh, mesh, {.samples = options.sweep_samples, .progress = {}});
     const double percent = distance.diagonal > 0 ? 100 / distance.diagonal : 0;
     points.push_back({share, distance.mean() * percent, distance.rms() * percent,
-                      rgb_rms(originals.front_image, draw_vertex_colors(exact, mesh, originals.front))});
+                      rgb_rms(originals.drawn.color, draw_vertex_colors(exact, mesh, originals.front))});
     share *= half_decade;
   }
   return points;

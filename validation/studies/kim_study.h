@@ -65,6 +65,7 @@ struct KimOutcome {
   double color_rms = 0;                          ///< of the colours at nearest points, 0..√3
   double image_rms = 0;                          ///< of the one view, in steps of 1/255
   double image_rms_views = 0;                    ///< mean over the 24 views
+  double inside_rms = 0, outline_share = 0;      ///< of the one view, as in PictureError
   std::optional<double> device_image_rms;        ///< of the one view, both pictures drawn by the device
   std::optional<ClassCounts> device_classes;     ///< texels of the one view of the simplified mesh
   Image picture, closeup, error, closeup_error;  ///< RGB unorm8

@@ -23,9 +23,14 @@ VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& vie
   return scene;
 }
 
-Image draw_vertex_colors(Renderer& renderer, const Mesh& mesh, const VertexColorView& view) {
+DrawnView draw_view(Renderer& renderer, const Mesh& mesh, const VertexColorView& view) {
   const VertexColorScene scene = vertex_color_scene(mesh, view);
-  return std::move(renderer.render(scene.list, scene.frame).front());
+  std::vector<Image> images = renderer.render(scene.list, scene.frame);
+  return {std::move(images[0]), std::move(images[1])};
+}
+
+Image draw_vertex_colors(Renderer& renderer, const Mesh& mesh, const VertexColorView& view) {
+  return draw_view(renderer, mesh, view).color;
 }
 
 double rgb_rms(const Image& a, const Image& b) {
@@ -35,6 +40,37 @@ double rgb_rms(const Image& a, const Image& b) {
   std::uint64_t sse = 0;
   for (std::size_t c = 0; c < 3; ++c) sse += difference.channels[c].sse;
   return std::sqrt(static_cast<double>(sse) / static_cast<double>(difference.texels));
+}
+
+PictureError picture_error(const DrawnView& a, const DrawnView& b) {
+  PictureError error;
+  error.rms = rgb_rms(a.color, b.color);
+  std::uint64_t inside = 0, outline = 0, texels = 0;
+  for (int y = 0; y < a.color.height(); ++y)
+    for (int x = 0; x < a.color.width(); ++x) {
+      const bool in_a = *a.id.channels<std::uint32_t>(x, y) != kNoTriangle, in_b = *b.id.channels<std::uint32_t>(x, y) != kNoTriangle;
+      if (!in_a && !in_b) continue;
+      const auto *p = a.color.channels<std::uint8_t>(x, y), *q = b.color.channels<std::uint8_t>(x, y);
+      std::uint64_t square = 0;
+      for (int k = 0; k < 3; ++k) square += static_cast<std::uint64_t>((p[k] - q[k]) * (p[k] - q[k]));
+      (in_a && in_b ? inside : outline) += square;
+      texels += in_a && in_b;
+    }
+  if (texels > 0) error.inside_rms = std::sqrt(static_cast<double>(inside) / static_cast<double>(texels));
+  if (inside + outline > 0) error.outline_share = static_cast<double>(outline) / static_cast<double>(inside + outline);
+  return error;
+}
+
+ShownSquare shown_square(const DrawnView& view) {
+  constexpr int kMargin = 8;
+  int x0 = view.id.width(), x1 = -1, y0 = view.id.height(), y1 = -1;
+  for (int y = 0; y < view.id.height(); ++y)
+    for (int x = 0; x < view.id.width(); ++x) {
+      if (*view.id.channels<std::uint32_t>(x, y) == kNoTriangle) continue;
+      x0 = std::min(x0, x), x1 = std::max(x1, x), y0 = std::min(y0, y), y1 = std::max(y1, y);
+    }
+  if (x1 < 0) return {view.id.width() / 2, view.id.height() / 2, std::max(view.id.width(), view.id.height())};
+  return {(x0 + x1) / 2, (y0 + y1) / 2, std::max(x1 - x0, y1 - y0) + 1 + 2 * kMargin};
 }
 
 DeviceView draw_on_device(Renderer& exact, Renderer& device, const DeviceModel& model, const Mesh& mesh, const VertexColorView& view) {

@@ -24,12 +24,31 @@ struct VertexColorScene {
 };
 [[nodiscard]] VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view);
 
+struct DrawnView {
+  Image color;
+  Image id;  ///< kNoTriangle where nothing is shown
+};
+[[nodiscard]] DrawnView draw_view(Renderer& renderer, const Mesh& mesh, const VertexColorView& view);
 /// The colours alone.
 [[nodiscard]] Image draw_vertex_colors(Renderer& renderer, const Mesh& mesh, const VertexColorView& view);
 
 /// √(Σ (Δr² + Δg² + Δb²) / texels) over the whole image, in steps of 1/255: the RMS of the Euclidean distances between corresponding pixels.
 /// The sum is an exact integer. Both RGBA or RGB unorm8 of one size, else InputError.
 [[nodiscard]] double rgb_rms(const Image& a, const Image& b);
+
+/// The same error taken apart, to tell colours from outlines.
+struct PictureError {
+  double rms = 0;            ///< rgb_rms
+  double inside_rms = 0;     ///< over the texels in which both pictures show a surface
+  double outline_share = 0;  ///< of the sum of squares, what lies in texels in which only one of the pictures does; 0 to 1
+};
+[[nodiscard]] PictureError picture_error(const DrawnView& a, const DrawnView& b);
+
+/// The smallest square around what `view` shows, 8 texels wider on each side: its centre and side; the whole frame where nothing is shown.
+struct ShownSquare {
+  int x = 0, y = 0, side = 0;
+};
+[[nodiscard]] ShownSquare shown_square(const DrawnView& view);
 
 /// The same view on a device, and every texel that differs put in a class.
 struct DeviceView {

@@ -72,6 +72,8 @@ TEST_CASE("claims that fail, for one subject or for all, say where and why") {
         std::string::npos);
   CHECK(mean.why.find("On b") == std::string::npos);
   CHECK(claim_of(claims, "keeps colours").verdict == ClaimVerdict::partly);
+  CHECK(claim_of(claims, "keeps colours").why.find("On a outlines") != std::string::npos);
+  CHECK(claim_of(claims, "keeps colours").why.find("On b") == std::string::npos);
   CHECK(claim_of(claims, "takes longer").verdict == ClaimVerdict::partly);
   CHECK(!claim_of(claims, "takes longer").why.empty());
 

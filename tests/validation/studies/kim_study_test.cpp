@@ -78,7 +78,10 @@ TEST_CASE("a whole study of a small model: every method, every unit, the same by
     CHECK(o.max >= o.rms);
     CHECK(o.image_rms > 0);
     CHECK(o.image_rms_views > 0);
-    CHECK(o.picture.width() == 64);
+    CHECK(o.picture.width() == knot.picture.width());
+    CHECK(o.inside_rms > 0);
+    CHECK(o.outline_share > 0);
+    CHECK(o.outline_share < 1);
     CHECK(!o.device_image_rms);
   }
   CHECK(knot.of(KimMethod::kim).state_bytes_per_vertex == 48);

@@ -59,6 +59,28 @@ TEST_CASE("vertex colours are drawn as they are, on black") {
   CHECK_THROWS_WITH_AS((void)draw_vertex_colors(exact, mesh, view), "expected a mesh with vertex colours, got one without", InputError);
 }
 
+TEST_CASE("a picture's error taken apart: inside and outline") {
+  // Texels: both show it (differs by 3), only a (by 4), only b (by 12), neither.
+  DrawnView a{rgba(4, 1, {{3, 0, 0, 255}, {0, 4, 0, 255}, {0, 0, 0, 255}, {0, 0, 0, 255}}), Image(4, 1, kR32ui)};
+  DrawnView b{rgba(4, 1, {{0, 0, 0, 255}, {0, 0, 0, 255}, {0, 0, 12, 255}, {0, 0, 0, 255}}), Image(4, 1, kR32ui)};
+  const std::uint32_t ids[2][4] = {{0, 1, kNoTriangle, kNoTriangle}, {5, kNoTriangle, 6, kNoTriangle}};
+  for (int x = 0; x < 4; ++x) {
+    *a.id.channels<std::uint32_t>(x, 0) = ids[0][x];
+    *b.id.channels<std::uint32_t>(x, 0) = ids[1][x];
+  }
+  const PictureError error = picture_error(a, b);
+  CHECK(error.rms == std::sqrt(169 / 4.0));
+  CHECK(error.inside_rms == 3);
+  CHECK(error.outline_share == 160.0 / 169);
+  CHECK(picture_error(a, a).outline_share == 0);
+  const ShownSquare shown = shown_square(a);
+  CHECK(shown.x == 0);
+  CHECK(shown.side == 2 + 16);
+  DrawnView nothing = a;
+  for (int x = 0; x < 4; ++x) *nothing.id.channels<std::uint32_t>(x, 0) = kNoTriangle;
+  CHECK(shown_square(nothing).side == 4);
+}
+
 TEST_CASE("the worst window is found, and the close-up looks there") {
   Image a(64, 64, kRgba8), b(64, 64, kRgba8);
   for (int y = 0; y < 64; ++y)

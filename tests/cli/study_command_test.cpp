@@ -1,0 +1,92 @@
+// etalon study: files, documents, exit codes.
+#include <algorithm>
+#include <filesystem>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_command.h"
+#include "tests/cli/schema_validator.h"
+
+using namespace etalon::test;
+using nlohmann::json;
+
+namespace {
+
+void make_knot(const ScratchFolder& folder) {
+  REQUIRE(run_etalon({"make", "knot", "--faces", "2000", "-o", "knot.ply"}, {.folder = folder.path()}).exit_code == 0);
+}
+
+void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions) {
+  const std::vector<std::string> before = folder.listing();
+  const CommandResult result = run_etalon(arguments, {.folder = folder.path()});
+  CAPTURE(result.err);
+  CHECK(result.exit_code == exit_code);
+  REQUIRE(result.error_lines().size() == 1);
+  CHECK(result.error_lines()[0].find(mentions) != std::string::npos);
+  CHECK(folder.listing() == before);
+}
+
+}  // namespace
+
+TEST_CASE("study kim on a mesh of one's own: a folder, a document that keeps its schema, the same for 1 and 3 threads") {
+  const ScratchFolder folder;
+  make_knot(folder);
+  json first;
+  for (const char* threads : {"1", "3"}) {
+    const CommandResult result =
+        run_etalon({"study", "kim", "knot.ply", "--quick", "--reduction", "0.8", "--report", "out", "--threads", threads, "--json", "-"},
+                   {.folder = folder.path()});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    json document = json::parse(result.out);
+    const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/study.json"));
+    for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
+    json in_folder = json::parse(read_text(folder.path() / "out" / "study.json"));
+    in_folder.erase("run");
+    CHECK(document["run"]["tables"].size() == 1);
+    document.erase("run");
+    CHECK(in_folder == document);
+    if (first.is_null()) first = document;
+    CHECK(first == document);
+  }
+  CHECK(first["inputs"][0]["name"] == "knot.ply");
+  CHECK(first["tables"][0]["rows"][0][6] == 198);  // 20 % of 71 · 14 vertices
+  for (const char* file : {"index.html", "table2.csv", "table3.csv", "unit-sweep.csv", "knot-kim.png", "legend.png"})
+    CHECK(std::filesystem::exists(folder.path() / "out" / file));
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out"))
+    CHECK(entry.path().filename().string().front() != '.');  // nothing temporary stays
+}
+
+TEST_CASE("study kim --quick on its own models takes seconds and sweeps the unit") {
+  const ScratchFolder folder;
+  const CommandResult result = run_etalon({"study", "kim", "duck", "--quick", "--report", "out"}, {.folder = folder.path()});
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.out.find("duck") != std::string::npos);
+  CHECK(result.out.find("report: file://") != std::string::npos);
+  const std::string page = read_text(folder.path() / "out" / "index.html");
+  CHECK(page.find("id=\"sweep\"") != std::string::npos);
+  CHECK(page.find("src=\"data:image/png;base64,") != std::string::npos);
+}
+
+TEST_CASE("study: what is refused, and nothing is left behind") {
+  const ScratchFolder folder;
+  folder.file("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.file("taken", "a file where the folder should be");
+  check_refused({"study"}, 64, folder, "study");
+  check_refused({"study", "kimm"}, 64, folder, "kimm");
+  check_refused({"study", "kim", "plain.obj"}, 4, folder, "plain.obj: expected vertex colours, got none");
+  check_refused({"study", "kim", "absent.ply"}, 4, folder, "absent.ply");
+  check_refused({"study", "kim", "plain.obj", "--reduction", "1"}, 64, folder, "--reduction");
+  check_refused({"study", "kim", "duck", "--quick", "--report", "taken"}, 4, folder, "taken");
+  check_refused({"study", "kim", "plain.obj", "--json", "plain.obj"}, 64, folder, "plain.obj");
+}
+
+TEST_CASE("study: an interrupt ends it with 130 and without a report") {
+  const ScratchFolder folder;
+  const CommandResult result =
+      run_etalon({"study", "kim", "monkey", "--report", "out"}, {.folder = folder.path(), .interrupt_after_ms = 400});
+  CHECK(result.exit_code == 130);
+  CHECK(!std::filesystem::exists(folder.path() / "out" / "index.html"));
+}
