@@ -55,6 +55,17 @@ full_preset() {
   ETALON_FULL='' check_tests "preset $preset" "$log.tests" ctest --preset "$preset"
 }
 
+# A million mutants of .epm files under the sanitizers, in the build of that preset.
+full_mutants() {
+  local program="$root/build-asan-ubsan/tests/progressive/etalon_progressive_tests"
+  if [ ! -x "$program" ]; then
+    count 0 0 1
+    printf '[etalon] skipped: mutants: the preset asan-ubsan was not built\n'
+    return 0
+  fi
+  full_program env ETALON_FULL=1 UBSAN_OPTIONS=halt_on_error=1 "$program" --test-case='mutants are refused*'
+}
+
 # The judge keeps a log of finished blocks, so that it goes on within a step too.
 judge="$root/build/tests/validation/reference/etalon_judge"
 [ -x "$judge" ] && full_step judge full_program "$judge" --full --log "$root/build/full-judge-$state_key.log"
@@ -62,5 +73,6 @@ crosscheck="$root/build/tests/validation/etalon_crosscheck"
 [ -x "$crosscheck" ] && full_step crosscheck full_program "$crosscheck" 1000000000
 full_step no-gpu full_preset no-gpu g++
 full_step asan-ubsan full_preset asan-ubsan clang++
+full_step mutants full_mutants
 full_step tsan full_preset tsan clang++
 full_step tidy full_preset tidy clang-tidy

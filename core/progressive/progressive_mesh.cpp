@@ -38,9 +38,11 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveData data) : data_(std::move(data)) 
   wedge_order_ = order_of(data_.wedge_ids, "wedge id");
   face_order_ = order_of(data_.face_ids, "face id");
   faces_ = data_.faces;
+  std::vector<std::uint32_t> wedge_uses = uses_in_base();
   while (level_ < split_count()) {
     check_split(level_);
     refine();
+    check_uses(level_ - 1, wedge_uses);
   }
   go_to(0);
 }
@@ -71,9 +73,66 @@ void ProgressiveMesh::check_base() const {
     if (d.wedges[w].vertex.index >= limit)
       throw InputError(fmt::format("wedge {}: vertex: expected below {}, got {}", w, limit, d.wedges[w].vertex.index));
   }
-  for (std::uint32_t f = 0; f < d.base_faces; ++f)
+  for (std::uint32_t f = 0; f < d.base_faces; ++f) {
     for (const std::uint32_t w : d.faces[f])
       if (w >= d.base_wedges) throw InputError(fmt::format("face {}: wedge: expected below {}, got {}", f, d.base_wedges, w));
+    const auto vertex = [&](std::size_t k) { return d.wedges[d.faces[f][k]].vertex; };
+    if (vertex(0) == vertex(1) || vertex(1) == vertex(2) || vertex(2) == vertex(0))
+      throw InputError(fmt::format("face {}: expected three vertices", f));
+  }
+  check_materials();
+}
+
+void ProgressiveMesh::check_materials() const {
+  const std::vector<std::string>& names = data_.material_names;
+  for (std::size_t m = 0; m < names.size(); ++m)
+    for (const char c : names[m])
+      if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F)
+        throw InputError(fmt::format("material {}: expected a name without control characters", m));
+  if (names.empty()) return;
+  for (std::size_t f = 0; f < data_.materials.size(); ++f)
+    if (data_.materials[f] >= names.size())
+      throw InputError(fmt::format("face {}: material: expected below {}, got {}", f, names.size(), data_.materials[f]));
+}
+
+// How many corners of the base each wedge has.
+std::vector<std::uint32_t> ProgressiveMesh::uses_in_base() const {
+  std::vector<std::uint32_t> wedge_uses(data_.wedges.size(), 0);
+  std::vector<bool> vertex_used(data_.base_vertices, false);
+  for (std::uint32_t f = 0; f < data_.base_faces; ++f)
+    for (const std::uint32_t w : data_.faces[f]) ++wedge_uses[w];
+  for (std::uint32_t w = 0; w < data_.base_wedges; ++w) {
+    if (wedge_uses[w] == 0) throw InputError(fmt::format("wedge {}: expected a face of the base that has it", w));
+    vertex_used[data_.wedges[w].vertex.index] = true;
+  }
+  for (std::uint32_t v = 0; v < data_.base_vertices; ++v)
+    if (!vertex_used[v]) throw InputError(fmt::format("vertex {}: expected a face of the base that has it", v));
+  return wedge_uses;
+}
+
+// After split `i`: the wedges it brought, and those whose corners it took away, are still some face's. Then so are the vertices: wedges never
+// go on the way up.
+void ProgressiveMesh::check_uses(std::size_t i, std::vector<std::uint32_t>& wedge_uses) const {
+  const VertexSplit& s = data_.splits[i];
+  for (std::size_t f = s.first_face; f < face_count_at(i + 1); ++f)
+    for (const std::uint32_t w : data_.faces[f]) ++wedge_uses[w];
+  const std::array<std::uint32_t, 2> moved{s.right_corner - s.first_corner, s.end_corner - s.right_corner};
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (moved[side] == 0) continue;
+    wedge_uses[s.wedge[side]] += moved[side];
+    wedge_uses[s.wedge_of_parent[side]] -= moved[side];
+  }
+  const auto require_use = [&](std::uint32_t w) {
+    if (wedge_uses[w] == 0) refuse(i, fmt::format("wedge {}: expected a face that has it", w));
+  };
+  bool has_vertex = false;
+  for (std::size_t w = s.first_wedge; w < wedge_count_at(i + 1); ++w) {
+    require_use(static_cast<std::uint32_t>(w));
+    has_vertex = has_vertex || data_.wedges[w].vertex.index == data_.base_vertices + i;
+  }
+  for (std::size_t side = 0; side < 2; ++side)
+    if (moved[side] > 0) require_use(s.wedge_of_parent[side]);
+  if (!has_vertex) refuse(i, "expected a wedge of the new vertex");
 }
 
 // At level `i`: whether split i can be done.

@@ -34,6 +34,7 @@ struct ProgressiveData {
   std::vector<Wedge> wedges;                                   ///< #W, naming vertices by appearance
   std::vector<std::array<std::uint32_t, 3>> faces;             ///< #F: its wedges when it appears
   std::vector<std::uint32_t> materials;                        ///< #F or empty
+  std::vector<std::string> material_names;                     ///< empty, or one for each material that faces name
   std::vector<std::uint32_t> vertex_ids, wedge_ids, face_ids;  ///< in the original mesh: their order is the canonical one
   std::vector<VertexSplit> splits;
   std::vector<std::uint32_t> corners;  ///< 4·face + corner, as the splits name them
@@ -46,8 +47,9 @@ struct ProgressiveData {
 class ProgressiveMesh {
  public:
   /// Checks everything once, by going down from the base to the finest level. InputError "split N: what, expected, got" for data that is not
-  /// one: references to what is not there yet, corners that are not the parent's, ids used twice, faces without three vertices, numbers
-  /// that are not finite. Starts at the base.
+  /// one: references to what is not there yet, corners that are not the parent's, ids used twice, faces without three vertices, vertices and
+  /// wedges of no face, materials without a name among names, names with control characters, numbers that are not finite. So what passes has
+  /// no violation() at any level. Starts at the base.
   explicit ProgressiveMesh(ProgressiveData data);
 
   [[nodiscard]] const ProgressiveData& data() const { return data_; }
@@ -74,7 +76,10 @@ class ProgressiveMesh {
   void coarsen();
   [[nodiscard]] std::size_t wedge_count_at(std::size_t level) const;
   void check_base() const;
+  void check_materials() const;
   void check_split(std::size_t split) const;
+  [[nodiscard]] std::vector<std::uint32_t> uses_in_base() const;
+  void check_uses(std::size_t split, std::vector<std::uint32_t>& wedge_uses) const;
 
   ProgressiveData data_;
   std::vector<std::array<std::uint32_t, 3>> faces_;                     // current wedges

@@ -137,6 +137,37 @@ TEST_CASE("data that is no progressive mesh is refused, and says what is wrong")
   says(message_after([](ProgressiveData& d) { d.wedges[2].uv.y = std::numeric_limits<float>::quiet_NaN(); }), "wedge 2: uv");
   says(message_after([](ProgressiveData& d) { d.wedges[0].vertex = VertexId(d.base_vertices); }), "wedge 0: vertex");
   says(message_after([](ProgressiveData& d) { d.faces[0][1] = d.base_wedges; }), "face 0: wedge");
+  says(message_after([](ProgressiveData& d) { d.faces[0][1] = d.faces[0][0]; }), "face 0: expected three vertices");
+  says(message_after([](ProgressiveData& d) {
+         d.wedges.insert(d.wedges.begin(), d.wedges[0]);
+         d.wedge_ids.insert(d.wedge_ids.begin(), 1'000'000);
+         ++d.base_wedges;
+         for (auto& face : d.faces)
+           for (std::uint32_t& w : face) ++w;
+         for (VertexSplit& s : d.splits) {
+           ++s.first_wedge;
+           for (std::size_t side = 0; side < 2; ++side) {
+             if (s.wedge[side] != kNone) ++s.wedge[side];
+             if (s.wedge_of_parent[side] != kNone) ++s.wedge_of_parent[side];
+           }
+         }
+       }),
+       "wedge 0: expected a face of the base that has it");
+  says(message_after([](ProgressiveData& d) {
+         d.positions.insert(d.positions.begin(), d.positions[0]);
+         d.vertex_ids.insert(d.vertex_ids.begin(), 1'000'000);
+         ++d.base_vertices;
+         for (Wedge& w : d.wedges) w.vertex = VertexId(w.vertex.index + 1);
+         for (VertexSplit& s : d.splits) ++s.parent;
+       }),
+       "vertex 0: expected a face of the base that has it");
+  says(message_after([](ProgressiveData& d) {
+         d.material_names = {"a"};
+         d.has_materials = true;
+         d.materials.assign(d.faces.size(), 1);
+       }),
+       "face 0: material: expected below 1, got 1");
+  says(message_after([](ProgressiveData& d) { d.material_names = {"a\tb"}; }), "material 0: expected a name");
   says(message_after([](ProgressiveData& d) { d.vertex_ids[1] = d.vertex_ids[0]; }), "expected once, got twice");
   says(message_after([](ProgressiveData& d) { d.splits[1].parent = d.base_vertices + 1; }), "split 1: parent");
   says(message_after([](ProgressiveData& d) { d.splits[0].first_face += 1; }), "split 0: expected to follow the base");
