@@ -144,13 +144,15 @@ int measure(const BenchOptions& options) {
     }
   }
   const SceneBenchOptions beside{context.get(), levels_beside_reference(options.all_levels), options.only_ours};
+  std::size_t registered = 0;
   for (const SceneEntry& entry : all_entries()) {
     if (!wants(options, entry.name)) continue;
+    ++registered;
     const auto body = [&, entry](benchmark::State& state) { run_scene(state, entry, options, beside, outcome); };
     benchmark::RegisterBenchmark(entry.name.c_str(), body)->Iterations(1)->UseManualTime()->Unit(benchmark::kMillisecond);
   }
   PlainReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
+  if (registered > 0) benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
   if (!options.only_ours) {
     outcome.surfaces = measure_surface_scenes(options);

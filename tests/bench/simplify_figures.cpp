@@ -26,7 +26,8 @@ void add(std::vector<Figure>& figures, const SimplifySceneResult& result, Figure
 
 std::vector<double> times(const WayResult& a, const WayResult& b) { return ratios(a.seconds, b.seconds); }
 std::vector<double> peaks(const WayResult& a, const WayResult& b) { return {median(a.peak_bytes) / median(b.peak_bytes)}; }
-std::vector<double> distances(const WayResult& a, const WayResult& b) { return {a.rms / b.rms}; }
+/// Coordinates are float32: what is below half a unit of the last place of the diagonal is their rounding, and counts as that.
+std::vector<double> distances(const WayResult& a, const WayResult& b) { return {std::max(a.rms, 0x1p-24) / std::max(b.rms, 0x1p-24)}; }
 
 }  // namespace
 

@@ -35,6 +35,11 @@ std::vector<SimplifyScene> simplify_scenes() {
                     .ratio = 0.1,
                     .ways = all});
   scenes.push_back(knot_scene("simplify-knot", "`make knot` of 100,000 faces to 10 %", 100'000, 0.1, all));
+  scenes.push_back({.name = "simplify-head",
+                    .title = "Lee Perry-Smith's head of 17,684 faces to 10 %",
+                    .make = [] { return real_mesh("lee_perry_smith/LeePerrySmith.glb"); },
+                    .ratio = 0.1,
+                    .ways = {"ours-qem", "ours-qem-full", "cgal-gh", "openmesh", "meshopt"}});
   scenes.push_back({.name = "simplify-head283k",
                     .title = "Lee Perry-Smith's head of 282,944 faces to 10 %",
                     .make = [] { return real_mesh("lee_perry_smith/lee_perry_smith_283k.ply"); },
