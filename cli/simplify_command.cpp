@@ -156,8 +156,8 @@ int run(const Options& options) {
   if (options.unit && options.metric != "kim") throw UsageError("simplify: --unit is of --metric kim");
   const bool has_attributes = options.metric == "qem5" || options.metric == "qem6" || options.metric == "hoppe";
   if (options.weight && !has_attributes) throw UsageError("simplify: --weight is of --metric qem5, qem6 and hoppe");
-  if (options.metric == "kim" && options.collapse == "full")
-    throw UsageError("simplify: --metric kim is of half-edge collapses: --collapse half");
+  if ((options.metric == "kim" || options.metric == "aps") && options.collapse == "full")
+    throw UsageError(fmt::format("simplify: --metric {} is of half-edge collapses: --collapse half", options.metric));
   if (options.faces && options.ratio) throw UsageError("simplify: expected one of --faces and --ratio, got both");
   if (!options.faces && !options.ratio && options.tolerance.empty())
     throw UsageError("simplify: expected one of --faces, --ratio and --tolerance");
@@ -236,15 +236,15 @@ Verb add_simplify(CLI::App& root) {
   app->add_option(
          "--collapse", options->collapse,
          "half: a vertex goes into a neighbour, vertices keep their places (default); full: both ends of an edge go where the error "
-         "is least (not for kim)")
+         "is least (not for kim and aps)")
       ->type_name("half|full")
       ->check(CLI::IsMember({"half", "full"}));
   app->add_option(
          "--metric", options->metric,
          "Error metric: qem, the quadric of Garland & Heckbert (default); qem5 and qem6, with texture coordinates or vertex colours; "
-         "hoppe, vertex colours by gradients; kim, that of Kim, Choi & Lee for vertex colours")
-      ->type_name("qem|qem5|qem6|hoppe|kim")
-      ->check(CLI::IsMember({"qem", "qem5", "qem6", "hoppe", "kim"}));
+         "hoppe, vertex colours by gradients; kim, that of Kim, Choi & Lee for vertex colours; aps, how far the texture moves")
+      ->type_name("qem|qem5|qem6|hoppe|kim|aps")
+      ->check(CLI::IsMember({"qem", "qem5", "qem6", "hoppe", "kim", "aps"}));
   app->add_option(
          "--weight", options->weight,
          "For qem5, qem6 and hoppe: how long a difference of 1 in colour or texture is, the model's longest side being 1 (default 1)")

@@ -14,7 +14,7 @@ namespace etalon::simplify {
 /// Metric: double cost(u, v, half-edge between them) (never NaN, ≥ 0), of the states of u and v and the faces of u; collapse(u, v, edge), the state
 /// of v after u went into it, called before the faces change; and kCostsAreLocal: whether a cost leaves the other faces of u out, so
 /// that a vertex that loses a neighbour keeps its other costs. Where costs are dear it may have bounds as well: bound(u, v), never above the cost as
-/// computed; bound(u, candidates), of all into their cost; and then cost_of_bounded(u, v, bound), the bits of cost(u, v, …).
+/// computed; kBoundsAreLocal, likewise; prepare(u), before several cost_of_bounded(u, candidate with its bound for a cost), the bits of cost(u, v, …).
 ///
 /// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged then; a
 /// refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of the
@@ -83,6 +83,13 @@ class CollapseLoop {
   static constexpr std::uint32_t kUnpriced = kNone - 1;
   static constexpr bool kHasBounds = requires(Metric & m) { m.bound(0u, 0u); };
 
+  static constexpr bool kHasLocalBounds = [] {
+    if constexpr (kHasBounds)
+      return Metric::kBoundsAreLocal;
+    else
+      return false;
+  }();
+
   static bool before(double cost_a, std::uint32_t a, double cost_b, std::uint32_t b) { return cost_a != cost_b ? cost_a < cost_b : a < b; }
 
   // Calls visit(v, half-edge) for every neighbour that u's kind lets it go to.
@@ -105,12 +112,13 @@ class CollapseLoop {
     };
     if constexpr (kHasBounds) {
       // By rising bounds: once a bound is above the best cost, so are all costs behind it.
-      metric_.bound(u, candidates_);
+      metric_.prepare(u);
+      for (CollapseCandidate& candidate : candidates_) candidate.cost = metric_.bound(u, candidate.target);
       std::sort(candidates_.begin(), candidates_.end(),
                 [](const CollapseCandidate& a, const CollapseCandidate& b) { return before(a.cost, a.target, b.cost, b.target); });
-      for (const auto& [v, h, bound] : candidates_) {
-        if (bound > best.cost) break;
-        consider(metric_.cost_of_bounded(u, v, bound), v);
+      for (const CollapseCandidate& candidate : candidates_) {
+        if (candidate.cost > best.cost) break;
+        consider(metric_.cost_of_bounded(u, candidate), candidate.target);
       }
     } else {
       for (const auto& [v, h, unused] : candidates_) consider(metric_.cost(u, v, h), v);
@@ -164,7 +172,7 @@ class CollapseLoop {
         if (entry.target != step.u && entry.target != step.v) return see_cost(w, step.v, h, entry);
       }
     }
-    if constexpr (kHasBounds) {
+    if constexpr (kHasLocalBounds) {
       // The bounds that make up w's are the same, but for those of the ways to u and v.
       if (mesh_.kind(w) == VertexKind::interior && queue_.contains(w) && queue_.of(w).target == kUnpriced) {
         const double bound = metric_.bound(w, step.v);

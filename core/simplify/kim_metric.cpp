@@ -68,11 +68,6 @@ double KimMetric::color_error(std::uint32_t u, std::uint32_t v) const {
   return sum * length_;
 }
 
-void KimMetric::bound(std::uint32_t u, std::span<CollapseCandidate> candidates) {
-  for (CollapseCandidate& candidate : candidates) candidate.cost = bound(u, candidate.target);
-  loaded_ = kNone;
-}
-
 void KimMetric::load(std::uint32_t u) {
   loaded_ = u;
   near_.clear();
@@ -87,13 +82,13 @@ void KimMetric::load(std::uint32_t u) {
   for (std::size_t i = 0; i < points_.size(); ++i) products_[i] = product(at_u, points_[i]);
 }
 
-double KimMetric::cost_of_bounded(std::uint32_t u, std::uint32_t v, double bound) {
+double KimMetric::cost_of_bounded(std::uint32_t u, const CollapseCandidate& candidate) {
   if (loaded_ != u) load(u);
-  const Point at_v = points_[static_cast<std::size_t>(std::find(near_.begin(), near_.end(), v) - near_.begin())];
+  const Point at_v = points_[static_cast<std::size_t>(std::find(near_.begin(), near_.end(), candidate.target) - near_.begin())];
   for (std::size_t i = 0; i < points_.size(); ++i) terms_[i] = std::fabs(products_[i] - product(at_v, points_[i]));
   double sum = 0;
   for (const double term : terms_) sum += term;
-  return bound * (1 + sum * length_);
+  return candidate.cost * (1 + sum * length_);
 }
 
 void KimMetric::collapse(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) {

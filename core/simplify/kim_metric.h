@@ -2,8 +2,6 @@
 // [Kim, Choi & Lee 2008, sec. 4].
 #pragma once
 
-#include <span>
-
 #include "core/simplify/collapse_candidate.h"
 #include "core/simplify/qem_metric.h"
 
@@ -20,7 +18,7 @@ struct KimOptions {
 class KimMetric {
  public:
   /// Equation 16 sums over the neighbours of u: its costs change whenever its faces do.
-  static constexpr bool kCostsAreLocal = false;
+  static constexpr bool kCostsAreLocal = false, kBoundsAreLocal = true;
 
   /// InputError where the mesh has no colours or the unit is not a positive number.
   KimMetric(const CollapseMesh& mesh, const UnitPositions& positions, const QemOptions& qem, const KimOptions& options);
@@ -32,9 +30,9 @@ class KimMetric {
   [[nodiscard]] double bound(std::uint32_t u, std::uint32_t v) const {
     return (1 + qem_.cost(u, v) * length4_) * (1 + static_cast<double>(importance_[u]));
   }
-  /// Of all, and what cost_of_bounded() needs of u's neighbours.
-  void bound(std::uint32_t u, std::span<CollapseCandidate> candidates);
-  [[nodiscard]] double cost_of_bounded(std::uint32_t u, std::uint32_t v, double bound);
+  /// For several candidates in a row of one vertex, none of its neighbours having changed since prepare(u).
+  void prepare(std::uint32_t) { loaded_ = kNone; }
+  [[nodiscard]] double cost_of_bounded(std::uint32_t u, const CollapseCandidate& candidate);
   /// Of the quadrics alone.
   [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v, double) const {
     return qem_.squared_distance(u, v, qem_.cost(u, v));

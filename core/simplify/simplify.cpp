@@ -9,6 +9,7 @@
 #include "core/base/float_environment.h"
 #include "core/base/parallel.h"
 #include "core/mesh/triangle_tree.h"
+#include "core/simplify/aps_metric.h"
 #include "core/simplify/collapse_loop.h"
 #include "core/simplify/extract.h"
 #include "core/simplify/full_edge_loop.h"
@@ -42,7 +43,8 @@ void require_valid(const Mesh& mesh, const SimplifyOptions& options) {
   const bool by_color = options.metric == MetricName::qem6 || options.metric == MetricName::hoppe || options.metric == MetricName::kim;
   if (by_color && mesh.colors.empty())
     throw InputError(fmt::format("metric {}: expected vertex colours, got none", to_string(options.metric)));
-  if (options.metric == MetricName::qem5 && !mesh.has_uv) throw InputError("metric qem5: expected texture coordinates, got none");
+  const bool by_uv = options.metric == MetricName::qem5 || options.metric == MetricName::aps;
+  if (by_uv && !mesh.has_uv) throw InputError(fmt::format("metric {}: expected texture coordinates, got none", to_string(options.metric)));
   for (std::size_t v = 0; v < mesh.colors.size(); ++v) {
     const Vec4f& c = mesh.colors[v];
     if (by_color && !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z)))
@@ -214,6 +216,7 @@ const char* to_string(MetricName metric) {
     case MetricName::qem6: return "qem6";
     case MetricName::hoppe: return "hoppe";
     case MetricName::kim: return "kim";
+    case MetricName::aps: return "aps";
   }
   return "";
 }
@@ -254,6 +257,7 @@ SimplifyResult simplify_mesh(const Mesh& mesh, const SimplifyOptions& options) {
     case MetricName::qem6: run<Qem6Metric>(triangles, positions, options, result, options.attribute_weight); break;
     case MetricName::hoppe: run<HoppeMetric>(triangles, positions, options, result, options.attribute_weight); break;
     case MetricName::kim: run<KimMetric>(triangles, positions, options, result, options.kim); break;
+    case MetricName::aps: run<ApsMetric>(triangles, positions, options, result); break;
   }
   extract(triangles, result);
   if (!result.landings.empty()) measure_landings(mesh, result);

@@ -18,15 +18,17 @@ enum class MetricName : std::uint8_t {
   qem6,   ///< position and vertex colour (qem6_metric.h)
   hoppe,  ///< position and vertex colour by gradients (hoppe_metric.h)
   kim,    ///< position and vertex colour (kim_metric.h)
+  aps,    ///< texture deviation (aps_metric.h)
 };
-inline constexpr std::array kMetricNames{MetricName::qem, MetricName::qem5, MetricName::qem6, MetricName::hoppe, MetricName::kim};
+inline constexpr std::array kMetricNames{MetricName::qem,   MetricName::qem5, MetricName::qem6,
+                                         MetricName::hoppe, MetricName::kim,  MetricName::aps};
 [[nodiscard]] const char* to_string(MetricName metric);
 /// InputError for a name that is none.
 [[nodiscard]] MetricName metric_named(const std::string& name);
 
 enum class CollapseKind : std::uint8_t {
   half,  ///< a vertex goes into a neighbour, which stays as it is (figure 1b)
-  full,  ///< both ends go to where the metric is least (figure 1a): not for kim
+  full,  ///< both ends go to where the metric is least (figure 1a): not for kim and aps
 };
 [[nodiscard]] const char* to_string(CollapseKind kind);
 
@@ -78,7 +80,8 @@ struct SimplifyResult {
   StopReason stop = StopReason::faces;
   std::size_t collapse_count = 0;
   double max_cost = 0;  ///< largest cost paid, in the metric's own unit
-  /// Largest cost paid as a length in model units: for `qem` the weighted root mean square distance of a target to all planes it then stands for.
+  /// Largest cost paid as a length in model units: for `qem` and `kim` the weighted root mean square distance of a target to all planes it then stands for, for the others
+  /// with attributes that of position and attributes together, for `aps` the bound of the texture deviation.
   double error = 0;
   std::array<std::uint64_t, kRefusalCount> refusals{};                         ///< candidates refused when they were the least, by Refusal
   std::size_t interior_vertices = 0, curve_vertices = 0, locked_vertices = 0;  ///< of the input, by kind (VertexKind)

@@ -138,6 +138,10 @@ TEST_CASE("simplify: --collapse full and --tolerance") {
     CHECK(document["distance_audited"].get<double>() <= document["tolerance"].get<double>());
     CHECK(document["target_faces"] == 0);
   }
+  const CommandResult aps =
+      run_etalon({"simplify", "swirl.obj", "--ratio", "0.3", "--metric", "aps", "-o", "aps.obj", "--json", "-"}, {.folder = folder.path()});
+  REQUIRE(aps.exit_code == 0);
+  CHECK(checked_document(aps, "simplify.json")["metric"] == "aps");
   const CommandResult early =
       run_etalon({"simplify", "swirl.obj", "--faces", "2", "--tolerance", "0", "-o", "early.obj"}, {.folder = folder.path()});
   CHECK(early.exit_code == 1);

@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/simplify/aps_metric.h"
 #include "core/simplify/collapse_loop.h"
 #include "core/simplify/hoppe_metric.h"
 #include "core/simplify/qem5_metric.h"
@@ -27,7 +28,7 @@ struct Least {
 };
 
 template <class Metric>
-Least least_of_all(const CollapseMesh& mesh, const Metric& metric, Legality& legality) {
+Least least_of_all(const CollapseMesh& mesh, Metric& metric, Legality& legality) {
   Least least;
   for (std::uint32_t u = 0; u < mesh.vertex_capacity(); ++u) {
     if (!mesh.vertex_alive(u) || mesh.kind(u) == VertexKind::locked) continue;
@@ -88,7 +89,9 @@ TEST_CASE("each step is the least legal one of all, and keeps every invariant, d
     with([](const auto& mesh, const auto& positions) { return KimMetric(mesh, positions, {}, {.unit = 0.1}); });
     with([](const auto& mesh, const auto& positions) { return Qem6Metric(mesh, positions, {}, 1); });
     with([](const auto& mesh, const auto& positions) { return HoppeMetric(mesh, positions, {}, 0.5); });
-    if (sample.mesh.has_uv) with([](const auto& mesh, const auto& positions) { return Qem5Metric(mesh, positions, {}, 1); });
+    if (!sample.mesh.has_uv) continue;
+    with([](const auto& mesh, const auto& positions) { return Qem5Metric(mesh, positions, {}, 1); });
+    with([](const auto& mesh, const auto& positions) { return ApsMetric(mesh, positions, {}); });
   }
 }
 
