@@ -139,12 +139,14 @@ IsoTriangles make_iso_mesh(const IsoMeshOptions& options) {
   o.lattice.spacing = length(o.lattice.hi - o.lattice.lo) / 120;
   double aim = static_cast<double>(wanted) * 0.996;
   IsoTriangles mesh;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 12; ++i) {
     tell(std::min(i + 1, kMarches));
     mesh = march_lattice(o.lattice);
     const auto count = static_cast<double>(mesh.positions.size());
-    if (mesh.positions.size() <= wanted && count >= 0.985 * static_cast<double>(wanted)) break;
-    if (i >= 2) aim *= 0.998;
+    // A lattice may see a hole in what is thinner than its spacing, and the next one not.
+    const bool sphere = mesh.faces.size() + 4 == 2 * mesh.positions.size();
+    if (sphere && mesh.positions.size() <= wanted && count >= 0.96 * static_cast<double>(wanted)) break;
+    if (i >= 2) aim *= 0.997;
     o.lattice.spacing *= std::sqrt(count / aim);
   }
   if (mesh.positions.size() > wanted) throw InputError(fmt::format("implicit mesh: no lattice gives fewer than {} vertices", wanted));

@@ -93,6 +93,7 @@ double head(const Vec3d& p) {
   d = smooth_max(d, 0.046 - length((q - c - Vec3d(0.080, 0.032, 0.232)) * Vec3d(0.8, 1.15, 1)), 0.05);                   // sockets
   d = smooth_min(d, ellipsoid(q, c + Vec3d(0.078, 0.022, 0.150), {0.046, 0.036, 0.040}), 0.012);                         // closed lids
   d += 0.006 * bump(q.y - c.y - 0.012 + 0.10 * (q.x - 0.078) * (q.x - 0.078) * 20, 0.010) * bump(q.x - 0.078, 0.055);
+  d = smooth_min(d, ellipsoid(q, c + Vec3d(0, -0.147, 0.184), {0.048, 0.024, 0.030}), 0.014);      // solid behind the lips
   d = smooth_min(d, ellipsoid(q, c + Vec3d(0.016, -0.134, 0.204), {0.036, 0.014, 0.022}), 0.016);  // lips
   d = smooth_min(d, ellipsoid(q, c + Vec3d(0, -0.160, 0.196), {0.040, 0.016, 0.022}), 0.014);
   d += 0.008 * bump(q.y - c.y + 0.146 - 0.25 * q.x * q.x, 0.010) * bump(q.x, 0.062);

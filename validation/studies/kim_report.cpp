@@ -143,7 +143,8 @@ StudyTable sweep_table(const KimStudyResult& result) {
       .note = fmt::format("unit: as a share of the diagonal D; the default is D/8000. Metro with about {} samples, % of D; one view.",
                           grouped(result.sweep_samples)),
       .columns = {"model", "unit / D", "D / unit", "mean %", "RMS %", "image RMS", "mean / qem6", "RMS / qem6", "image RMS / qem6"},
-      .rows = {}};
+      .rows = {},
+      .folded = true};
   for (const KimSubjectResult& s : result.subjects) {
     const KimOutcome& base = s.of(KimMethod::qem6);
     for (const KimSweepPoint& p : s.sweep)
