@@ -72,7 +72,7 @@ bool make_uv_planes_exact(const DrawList& list, std::uint32_t t, const Frame& fr
     out[kPlaneAnchor] = scaled(static_cast<double>(plane.anchor), -plane.scale);
     out[kPlaneX] = scaled(static_cast<double>(plane.x), -plane.scale);
     out[kPlaneY] = scaled(static_cast<double>(plane.y), -plane.scale);
-    out[kPlaneError] = kExactPlane;
+    planes[layout.error(place)] = kExactPlane;
     some = true;
   }
   return some;

@@ -9,9 +9,13 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstring>
+#include <limits>
+#include <type_traits>
 
 #include "raster/fast/kernels.h"
 #include "raster/fast/planes.h"
+#include "raster/visibility.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace etalon::raster::fast::HWY_NAMESPACE {
@@ -21,23 +25,35 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Each builds on the one before.
 #include "raster/fast/plane_kernels.inc"
 #include "raster/fast/texel_kernels.inc"
+#include "raster/fast/nearest_kernels.inc"
+#include "raster/fast/copy_kernels.inc"
 #include "raster/fast/store_kernels.inc"
 #include "raster/fast/depth_kernels.inc"
-#include "raster/fast/cover_kernels.inc"
+#include "raster/fast/run_kernels.inc"
+#include "raster/fast/small_kernels.inc"
+#include "raster/fast/make_plane_kernels.inc"
 #include "raster/fast/margin_kernels.inc"
 #undef ETALON_INLINE_STEP
 // clang-format on
 
 const Kernels* kernels() {
   static const Kernels table = {
-      .cover_small = cover_small,
+      .set_up_small = set_up_small,
+      .set_up_small_depth = set_up_small_depth,
+      .draw_small = draw_small,
+      .make_planes = make_planes,
       .equal_run = equal_run,
+      .renumber = renumber,
+      .mark = mark,
+      .nonzero_run = nonzero_run,
       .positions = positions,
       .attribute = attribute,
       .nearest_texels = nearest_texels,
       .nearest_axis = nearest_axis,
       .linear_axis = linear_axis,
       .texel_offsets = texel_offsets,
+      .copy_words = copy_words,
+      .copy_float_pairs = copy_float_pairs,
       .bilinear = bilinear,
       .bilinear_rgba8 = bilinear_rgba8,
       .to_unorm = to_unorm,

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/draw/state.h"
+#include "raster/fast/planes.h"
 #include "raster/simd_level.h"
 
 namespace etalon::raster::fast {
@@ -25,9 +26,6 @@ struct alignas(64) FloatLanes {
 struct alignas(64) IntLanes {
   std::int32_t at[kRunLanes + 8];  ///< a vector may begin at any lane
 };
-struct alignas(64) OffsetLanes {
-  std::int64_t at[kRunLanes];
-};
 
 /// A number per lane and a bound on its error: the exact one lies in [value − error, value + error]. The error holds room for one rounding
 /// more, of value ± error or of value · image size. It may be +inf, never NaN, and kExactPlane (planes.h), which is negative.
@@ -46,11 +44,13 @@ struct LinearAxis {
   Values fraction;
 };
 
-/// The triangles of a run: planes (planes.h) and, per lane, the offset of its triangle's.
+/// The triangles of a run: planes (planes.h), `stride` numbers each, and per lane the number of its triangle. The lanes of the last vector
+/// behind the run have triangles too.
 struct RunTriangles {
   const double* planes;
-  const OffsetLanes* offset;
-  bool uniform;      ///< all lanes have one offset
+  const std::uint32_t* number;
+  int stride;
+  bool uniform;      ///< all lanes have one triangle
   bool perspective;  ///< some Q is not 1
 };
 
@@ -60,21 +60,68 @@ struct TexelGrid {
   Wrap wrap_u, wrap_v;
 };
 
-/// The edge functions of a triangle over a box of texels, biased so that inside is >= 0: at the first texel, per column, per row.
-/// Nothing exceeds 2^31 at the box's columns 0..7.
-struct SmallTriangle {
-  std::int32_t value[3], x[3], y[3];
+/// Triangles are set up so many at once.
+inline constexpr int kBatch = 8;
+/// Sub-texels from end to end up to which a triangle is small: a tile's width at 8 bits.
+inline constexpr std::int32_t kMostSmallExtent = 1 << 14;
+
+/// Corners of kBatch triangles: x and y in turns, sub-texels, and depth.
+struct alignas(64) CornerBatch {
+  std::int32_t xy[3][2 * kBatch];
+  float z[3][kBatch];
+};
+
+/// Corners of kBatch triangles as planes need them: sub-texels, w, and the attributes of planes.h (weights are not read).
+struct alignas(64) PlaneBatch {
+  std::int32_t x[3][kBatch], y[3][kBatch];
+  float w[3][kBatch];
+  float attribute[kPlaneWeight0][3][kBatch];
+};
+
+/// What setting up triangles takes from frame and tile.
+struct TileFrame {
+  std::int32_t x0, y0;  ///< sub-texels of the tile's first texel's corner
+  int width, height;    ///< texels of the tile
+  int subtexel_bits;
+  CullMode cull;
+  bool left, ymin;  ///< the fill rule
+};
+
+/// kBatch triangles over the boxes of samples each can cover in the tile. Counter-clockwise, edge k opposite vertex k.
+struct alignas(64) SmallTriangles {
+  std::int32_t column[kBatch], row[kBatch];            ///< the box's first sample, from the tile's
+  std::int32_t last_column[kBatch], last_row[kBatch];  ///< from the box's first
+  std::int32_t value[3][kBatch], biased[3][kBatch];    ///< edge functions there; biased: inside is >= 0
+  std::int32_t x[3][kBatch], y[3][kBatch];             ///< change per column and row
+  std::int32_t area2[kBatch], clockwise[kBatch];       ///< twice the area; −1 where the input is clockwise, else 0
+  double depth[kBatch], depth_x[kBatch], depth_y[kBatch], depth_error[kBatch];
+  unsigned empty, other;  ///< bits: draws nothing in the tile; is not small
 };
 
 struct Kernels {
-  /// Bit i of rows[j]: texel (i, j) of the box is inside; 8 columns.
-  void (*cover_small)(const SmallTriangle& triangle, int row_count, std::uint8_t* rows);
+  /// All but depth; then that.
+  void (*set_up_small)(const CornerBatch& corners, const TileFrame& frame, SmallTriangles& result);
+  void (*set_up_small_depth)(const CornerBatch& corners, SmallTriangles& result);
+  /// Draws triangles first..count-1 into a tile (rows kTileSize apart): nearest depth wins; without `depth` the
+  /// last. Triangle t writes first_slot + t. Stops at the first that is not small or whose depth is not decided, and returns it, or count;
+  /// of that one some texels may have been drawn. Adds the depths worked out to `values`.
+  int (*draw_small)(const SmallTriangles& triangles, int first, int count, std::uint32_t first_slot, std::uint32_t* slots, float* depth,
+                    std::uint64_t& values);
+  /// The planes of kBatch triangles that have covered samples in the tile, layout.stride() numbers each; see make_planes() of planes.h. Needs
+  /// at most kMostEdgeBits sub-texel bits. Lanes of other triangles get unspecified numbers.
+  bool (*make_planes)(const PlaneBatch& batch, const TileFrame& frame, const PlaneLayout& layout, double* out);
   /// How many of the first `count` numbers (1..64) equal the first.
   int (*equal_run)(const std::uint32_t* numbers, int count);
+  /// numbers[i] = table[slots[i]]; `count` is a multiple of 16.
+  void (*renumber)(const std::uint32_t* slots, std::size_t count, const std::uint32_t* table, std::uint32_t* numbers);
+  /// seen[slots[i]] = 1.
+  void (*mark)(const std::uint32_t* slots, std::size_t count, std::uint32_t* seen);
+  /// How many of the first `count` numbers come before the first 0.
+  int (*nonzero_run)(const std::uint32_t* numbers, int count);
   /// Positions of texels (column + lane, row), relative to the tile.
   void (*positions)(const RunTriangles& run, int lanes, int column, int row, Positions& result);
-  /// The attribute whose plane starts `attribute` doubles into each triangle's planes.
-  void (*attribute)(const RunTriangles& run, int lanes, int attribute, const Positions& at, Values& result);
+  /// The attribute whose plane starts `attribute` doubles into each triangle's planes, and whose error lies `error` doubles into them.
+  void (*attribute)(const RunTriangles& run, int lanes, int attribute, int error, const Positions& at, Values& result);
   /// Offsets of the texels that u and v, the attributes whose planes start there, name in an image: the fused way of positions(),
   /// attribute(), nearest_axis() and texel_offsets().
   LaneMask (*nearest_texels)(const RunTriangles& run, int lanes, int column, int row, int u, int v, const TexelGrid& grid,
@@ -86,6 +133,9 @@ struct Kernels {
   LaneMask (*linear_axis)(const Values& u, int lanes, int size, Wrap wrap, LinearAxis& result);
   /// row·width + column, for indices that are in range.
   void (*texel_offsets)(const DoubleLanes& column, const DoubleLanes& row, int lanes, int width, IntLanes& offset);
+  /// Texels of four bytes, or of two float32 (zeros become +0), side by side.
+  void (*copy_words)(const std::uint32_t* texels, const IntLanes& offset, int lanes, std::byte* to);
+  void (*copy_float_pairs)(const float* texels, const IntLanes& offset, int lanes, std::byte* to);
   /// Bilinear value of one channel, in the texels' unit, times `scale`; |t| <= largest over the whole image.
   void (*bilinear)(const DoubleLanes t[4], const LinearAxis& u, const LinearAxis& v, int lanes, double scale, double largest,
                    Values& result);

@@ -66,27 +66,29 @@ Denominator denominator(const std::array<EdgePlane, 3>& e, const Reach& reach, d
 // Bound of |computed − exact| of base + R/Q. With u = 2^-53: every term of R rounds at most ten times (difference, area, its reciprocal,
 // edge, three products, three additions), so R errs by less than 12u·magnitude; R/Q <= d = max|d_k| (a convex combination of 0, d1, d2); the
 // quotient, its product and the sum round by less than 4u(|base| + d). Affine: Q = 1 without error. The factor of two that is left covers
-// the arithmetic of this bound and one rounding of the value's size where it is used: value ± error, or value · image size. Fused or not makes no difference: fusing only removes roundings.
+// the arithmetic of this bound and one rounding of the value's size where it is used: value ± error, or value · image size. Fused or not
+// makes no difference: fusing only removes roundings.
 double error_bound(const Numerator& r, const Denominator& q, double base, double d) {
   const double quotient_error = (12 * 0x1p-53 * r.magnitude + d * q.error) / (q.least * (1 - 0x1p-10));
   return 2 * quotient_error + 8 * 0x1p-53 * (std::abs(base) + d);
 }
 
-void write_plane(const std::array<EdgePlane, 3>& e, const Denominator& q, const Reach& reach, const std::array<double, 3>& a, double* out) {
+void write_plane(const std::array<EdgePlane, 3>& e, const Denominator& q, const Reach& reach, const std::array<double, 3>& a, double* out,
+                 double& error) {
   const double d1 = a[1] - a[0], d2 = a[2] - a[0];
   out[kPlaneBase] = a[0];
   if (d1 == 0 && d2 == 0) {  // base + 0/Q is exact
-    out[kPlaneAnchor] = out[kPlaneX] = out[kPlaneY] = out[kPlaneError] = 0;
+    out[kPlaneAnchor] = out[kPlaneX] = out[kPlaneY] = error = 0;
     return;
   }
   const Numerator r = numerator(e, q.weight, reach, d1, d2);
   out[kPlaneAnchor] = r.anchor, out[kPlaneX] = r.x, out[kPlaneY] = r.y;
-  out[kPlaneError] = error_bound(r, q, a[0], std::max(std::abs(d1), std::abs(d2)));
+  error = error_bound(r, q, a[0], std::max(std::abs(d1), std::abs(d2)));
 }
 
-void write_useless_plane(double* out) {
-  std::fill_n(out, kPlaneError, 0.0);
-  out[kPlaneError] = std::numeric_limits<double>::infinity();
+void write_useless_plane(double* out, double& error) {
+  std::fill_n(out, kPlaneGroup, 0.0);
+  error = std::numeric_limits<double>::infinity();
 }
 
 double canonical_attribute(const RasterVertex& v, PlaneAttribute a) {
@@ -108,7 +110,7 @@ bool make_planes(const DrawList& list, std::uint32_t t, const Frame& frame, cons
   const Denominator q = denominator(e, reach, static_cast<double>(edges.area2), {v[0]->w, v[1]->w, v[2]->w});
 
   out[kAnchorColumn] = edges.column0, out[kAnchorRow] = edges.row0;
-  out[kQ] = q.usable ? q.anchor : 1, out[kQ + 1] = q.usable ? q.x : 0, out[kQ + 2] = q.usable ? q.y : 0;
+  out[kQ] = q.usable ? q.anchor : 1, out[kQ + 1] = q.usable ? q.x : 0, out[kQ + 2] = q.usable ? q.y : 0, out[kQ + 3] = 0;
   if (layout.edges() >= 0) {
     double* edge = out + layout.edges();
     for (int k = 0; k < 3; ++k, edge += kEdgeNumbers) {
@@ -121,14 +123,15 @@ bool make_planes(const DrawList& list, std::uint32_t t, const Frame& frame, cons
     const auto a = static_cast<PlaneAttribute>(n);
     if (!layout.has(a)) continue;
     double* plane = out + layout.offset(a);
+    double& error = out[layout.error(a)];
     if (!q.usable) {
-      write_useless_plane(plane);
+      write_useless_plane(plane, error);
     } else if (a >= kPlaneWeight0) {
       std::array<double, 3> unit{};
       unit[static_cast<std::size_t>(a - kPlaneWeight0)] = 1;
-      write_plane(e, q, reach, unit, plane);
+      write_plane(e, q, reach, unit, plane, error);
     } else {
-      write_plane(e, q, reach, {canonical_attribute(*v[0], a), canonical_attribute(*v[1], a), canonical_attribute(*v[2], a)}, plane);
+      write_plane(e, q, reach, {canonical_attribute(*v[0], a), canonical_attribute(*v[1], a), canonical_attribute(*v[2], a)}, plane, error);
     }
   }
   return !q.affine && q.usable;

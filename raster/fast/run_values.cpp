@@ -42,17 +42,13 @@ std::vector<double> largest_texels(const DrawList& list) {
   return largest;
 }
 
-void RunValues::begin(const RunTriangles& triangles, int lanes, int column, int row) {
-  triangles_ = triangles, lanes_ = lanes, column_ = column, row_ = row, has_positions_ = false, has_uv_ = false;
-}
-
 const Positions& RunValues::positions() {
   if (!has_positions_) context_.kernels.positions(triangles_, lanes_, column_, row_, positions_), has_positions_ = true;
   return positions_;
 }
 
 void RunValues::evaluate(PlaneAttribute a, Values& result) {
-  context_.kernels.attribute(triangles_, lanes_, context_.layout.offset(a), positions(), result);
+  context_.kernels.attribute(triangles_, lanes_, context_.layout.offset(a), context_.layout.error(a), positions(), result);
 }
 
 void RunValues::interpolate_uv() {
@@ -99,7 +95,7 @@ LaneMask RunValues::store_color(const Draw& draw, const TargetSpec& target, std:
   }
   if (copied) {
     undecided |= nearest(texture, draw.sampler);
-    copy_texels(texture, offset_[0], lanes_, target.format, texels);
+    copy_texels(texture, offset_[0], lanes_, target.format, context_.kernels, texels);
     return undecided;
   }
   undecided |= look_up(texture, draw.sampler, context_.largest[draw.texture], target.format.channels);
@@ -110,7 +106,7 @@ LaneMask RunValues::copy_nearest(const Image& image, const Sampler& sampler, Pix
   const TexelGrid grid = {image.width(), image.height(), sampler.wrap_u, sampler.wrap_v};
   const LaneMask undecided = context_.kernels.nearest_texels(triangles_, lanes_, column_, row_, context_.layout.offset(kPlaneU),
                                                              context_.layout.offset(kPlaneV), grid, offset_[0]);
-  copy_texels(image, offset_[0], lanes_, target, texels);
+  copy_texels(image, offset_[0], lanes_, target, context_.kernels, texels);
   return undecided;
 }
 

@@ -30,8 +30,15 @@ class RunValues {
  public:
   explicit RunValues(const RunContext& context) : context_(context) {}
 
-  /// Begins a run of `lanes` texels from (column, row) of the tile on.
-  void begin(const RunTriangles& triangles, int lanes, int column, int row);
+  /// Begins a tile, whose triangles have these planes.
+  void begin_tile(const double* planes, bool perspective) {
+    triangles_.planes = planes, triangles_.stride = context_.layout.stride(), triangles_.perspective = perspective;
+  }
+  /// Begins a run of `lanes` texels from (column, row) of the tile on, with their triangles' numbers.
+  void begin(const std::uint32_t* numbers, bool uniform, int lanes, int column, int row) {
+    triangles_.number = numbers, triangles_.uniform = uniform;
+    lanes_ = lanes, column_ = column, row_ = row, has_positions_ = false, has_uv_ = false;
+  }
 
   /// Write a target's texels; the lanes of the mask are not decided and hold unspecified bytes.
   [[nodiscard]] LaneMask store_color(const Draw& draw, const TargetSpec& target, std::byte* texels);

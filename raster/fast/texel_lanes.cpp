@@ -26,12 +26,11 @@ void copy_bytes(const std::byte* from, int stride, const IntLanes& offset, int l
 
 template <int kChannels>
 void copy_floats(const float* from, int stride, const IntLanes& offset, int lanes, std::byte* to) {
-  for (int n = 0; n < lanes; ++n) {
-    float texel[kChannels];
-    std::memcpy(texel, from + static_cast<std::ptrdiff_t>(offset.at[n]) * stride, sizeof texel);
-    for (float& number : texel) number += 0.0f;  // −0 is stored as +0
-    std::memcpy(to + n * sizeof texel, texel, sizeof texel);
-  }
+  alignas(64) float numbers[kRunLanes * kChannels];
+  for (int n = 0; n < lanes; ++n)
+    std::memcpy(numbers + n * kChannels, from + static_cast<std::ptrdiff_t>(offset.at[n]) * stride, kChannels * sizeof(float));
+  for (int n = 0; n < lanes * kChannels; ++n) numbers[n] += 0.0f;  // −0 is stored as +0
+  std::memcpy(to, numbers, static_cast<std::size_t>(lanes) * kChannels * sizeof(float));
 }
 
 template <class T, int kChannels, class Lanes>
@@ -81,10 +80,11 @@ bool copies(PixelFormat image, PixelFormat target) {
          image.type != ChannelType::uint32;
 }
 
-void copy_texels(const Image& image, const IntLanes& offset, int lanes, PixelFormat target, std::byte* texels) {
+void copy_texels(const Image& image, const IntLanes& offset, int lanes, PixelFormat target, const Kernels& kernels, std::byte* texels) {
   const std::byte* const from = image.bytes().data();
   if (target.type == ChannelType::float32) {
     const auto* numbers = reinterpret_cast<const float*>(from);
+    if (image.format().channels == 2 && target.channels == 2) return kernels.copy_float_pairs(numbers, offset, lanes, texels);
     switch (target.channels) {
       case 1: return copy_floats<1>(numbers, image.format().channels, offset, lanes, texels);
       case 2: return copy_floats<2>(numbers, image.format().channels, offset, lanes, texels);
@@ -93,6 +93,8 @@ void copy_texels(const Image& image, const IntLanes& offset, int lanes, PixelFor
     }
   }
   const int stride = bytes_per_texel(image.format());
+  if (stride == 4 && bytes_per_texel(target) == 4)
+    return kernels.copy_words(reinterpret_cast<const std::uint32_t*>(from), offset, lanes, texels);
   switch (bytes_per_texel(target)) {
     case 1: return copy_bytes<1>(from, stride, offset, lanes, texels);
     case 2: return copy_bytes<2>(from, stride, offset, lanes, texels);

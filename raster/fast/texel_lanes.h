@@ -22,7 +22,7 @@ void read_channel(const Image& image, const IntLanes& offset, int lanes, int cha
 
 /// Whether a nearest lookup's texel goes into the target channel by channel, without arithmetic.
 [[nodiscard]] bool copies(PixelFormat image, PixelFormat target);
-void copy_texels(const Image& image, const IntLanes& offset, int lanes, PixelFormat target, std::byte* texels);
+void copy_texels(const Image& image, const IntLanes& offset, int lanes, PixelFormat target, const Kernels& kernels, std::byte* texels);
 
 /// Channels side by side.
 template <class T, class Lanes>

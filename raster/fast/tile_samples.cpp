@@ -1,23 +1,18 @@
 #include "raster/fast/tile_samples.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <optional>
 
-#include "raster/fast/tile_edges.h"
-#include "raster/triangle_setup.h"
+#include "raster/fast/depth_plane.h"
 
 namespace etalon::raster::fast {
 namespace {
 
 // Spans at most this long are found and tested texel by texel.
 constexpr int kNarrow = 2;
-// Boxes at most this wide are covered by one vector a row.
-constexpr int kSmall = 8;
-// Depths of at most so many texels are not worth a call.
-constexpr int kShort = 4;
 
 // The texels of [first, last] where value + x·column >= 0, by one product and an exact correction.
 void clip_span(std::int64_t value, std::int64_t x, double reciprocal, int& first, int& last) {
@@ -39,58 +34,49 @@ void clip_span(std::int64_t value, std::int64_t x, double reciprocal, int& first
   }
 }
 
-// Window depth over one triangle's texels of the tile, as a plane with a bound; the exact number where that cannot decide.
-class DepthPlane {
- public:
-  DepthPlane(const RasterVertex* const v[3], const TileEdges& edges) : vertices_{v[0], v[1], v[2]}, edges_(edges) {
-    const double z0 = canonical(v[0]->z), d1 = canonical(v[1]->z) - z0, d2 = canonical(v[2]->z) - z0;
-    anchor_ = z0;
-    if (d1 == 0 && d2 == 0) return;
-    const double reciprocal = 1 / static_cast<double>(edges.area2);
-    const double s1 = d1 * reciprocal, s2 = d2 * reciprocal;
-    const auto part = [&](const std::array<std::int64_t, 3>& e) {
-      return std::array<double, 2>{static_cast<double>(e[1]) * s1, static_cast<double>(e[2]) * s2};
-    };
-    const auto at = part(edges.value), x = part(edges.step_x), y = part(edges.step_y);
-    anchor_ += at[0] + at[1], x_ = x[0] + x[1], y_ = y[0] + y[1];
-    // As the affine bound in planes.cpp: 12·2^-53 of the magnitudes and 4·2^-53 of the sum, doubled.
-    error_ = 0x1p-48 * (z0 + std::abs(at[0]) + std::abs(at[1]) + (edges.column1 - edges.column0) * (std::abs(x[0]) + std::abs(x[1])) +
-                        (edges.row1 - edges.row0) * (std::abs(y[0]) + std::abs(y[1])));
-  }
+static_assert(offsetof(RasterVertex, y) == offsetof(RasterVertex, x) + sizeof(std::int32_t));  // copied together
 
-  /// Stored depths of `lanes` texels from (column, row) on, counted from the edges' first sample.
-  void span(int column, int row, int lanes, const Kernels& kernels, float* result, EvaluationCounters& counters) const {
-    const double z = anchor_ + y_ * row + x_ * column;
-    counters.values += static_cast<std::uint64_t>(lanes);
-    if (lanes > kShort) {
-      for (LaneMask open = kernels.depth(z, x_, error_, lanes, result); open != 0; open &= open - 1)
-        result[std::countr_zero(open)] = exact(column + std::countr_zero(open), row, counters);
-      return;
-    }
-    for (int n = 0; n < lanes; ++n) {
-      const double value = z + x_ * n;
-      const float low = static_cast<float>(value - error_), high = static_cast<float>(value + error_);
-      result[n] = low == high ? low + 0.0f : exact(column + n, row, counters);
-    }
-  }
-
- private:
-  [[nodiscard]] float exact(int column, int row, EvaluationCounters& counters) const {
-    ++counters.scalar;
-    EdgeValues e;
-    for (std::size_t k = 0; k < 3; ++k) e[k] = edges_.value[k] + column * edges_.step_x[k] + row * edges_.step_y[k];
-    return stored_depth(e, edges_.area2, exact_triple(vertices_[0]->z, vertices_[1]->z, vertices_[2]->z));
-  }
-  const RasterVertex* vertices_[3];
-  const TileEdges& edges_;
-  double anchor_ = 0, x_ = 0, y_ = 0, error_ = 0;
-};
+// Margins keep a second depth, and a depth that is not tested is written as it comes: both triangle by triangle. Small triangles' steps have
+// room for 11 sub-texel bits.
+bool has_small_path(const Frame& frame, SampleNeeds needs) {
+  return !needs.runner_up && (!needs.depth || frame.state.depth_test) && frame.state.subtexel_bits <= 11;
+}
 
 class SampleFinder {
  public:
   SampleFinder(const DrawList& list, const Frame& frame, const Tile& tile, SampleNeeds needs, const Kernels& kernels, TileSamples& samples,
                EvaluationCounters& counters)
       : list_(list), frame_(frame), tile_(tile), needs_(needs), kernels_(kernels), samples_(samples), counters_(counters) {}
+
+  // By the kernels for small triangles; one at a time what they leave.
+  void draw_batches(const std::uint32_t* ids, std::size_t count) {
+    const TileFrame tile_frame = tile_frame_of(frame_, tile_);
+    float* const depth = needs_.depth ? samples_.depth : nullptr;
+    CornerBatch corners{};
+    SmallTriangles small;
+    for (std::size_t n = 0; n < count; n += kBatch) {
+      const int lanes = static_cast<int>(std::min<std::size_t>(kBatch, count - n));
+      // A tile's triangles may lie anywhere in the list, and neighbours of one of their corners near it.
+      for (std::size_t i = n + 4 * kBatch; i < std::min(n + 5 * kBatch, count); ++i) __builtin_prefetch(&list_.triangles[ids[i]]);
+      for (std::size_t i = n + 2 * kBatch; i < std::min(n + 3 * kBatch, count); ++i)
+        __builtin_prefetch(&list_.vertices[list_.triangles[ids[i]][2]]);
+      for (int t = 0; t < lanes; ++t) {
+        const auto& corner = list_.triangles[ids[n + static_cast<std::size_t>(t)]];
+        for (std::size_t k = 0; k < 3; ++k) {
+          const RasterVertex& v = list_.vertices[corner[k]];
+          std::memcpy(corners.xy[k] + 2 * t, &v.x, 2 * sizeof v.x);
+          if (depth != nullptr) corners.z[k][t] = v.z;
+        }
+      }
+      kernels_.set_up_small(corners, tile_frame, small);
+      if (depth != nullptr && (small.empty & ((1u << lanes) - 1)) != (1u << lanes) - 1) kernels_.set_up_small_depth(corners, small);
+      const auto first_slot = static_cast<std::uint32_t>(n + 1);
+      for (int t = 0; t < lanes; ++t) {
+        t = kernels_.draw_small(small, t, lanes, first_slot, samples_.slot, depth, counters_.values);
+        if (t < lanes) draw(ids[n + static_cast<std::size_t>(t)], first_slot + static_cast<std::uint32_t>(t));
+      }
+    }
+  }
 
   void draw(std::uint32_t id, std::uint32_t slot) {
     const auto& corner = list_.triangles[id];
@@ -111,38 +97,29 @@ class SampleFinder {
         narrow_span(edges, row, first, last);
         if (first <= last) write(first, last, row);
       }
-    } else if (last_column < kSmall && is_small(edges)) {
-      SmallTriangle small;
-      for (std::size_t k = 0; k < 3; ++k)
-        small.value[k] = static_cast<std::int32_t>(biased_[k]), small.x[k] = static_cast<std::int32_t>(edges.step_x[k]),
-        small.y[k] = static_cast<std::int32_t>(edges.step_y[k]);
-      std::uint8_t rows[kTileSize];
-      kernels_.cover_small(small, last_row + 1, rows);
-      for (int row = 0; row <= last_row; ++row) {
-        const unsigned inside = rows[row] & ((2u << last_column) - 1);  // one span: a triangle is convex
-        if (inside != 0) write(std::countr_zero(inside), static_cast<int>(std::bit_width(inside)) - 1, row);
-      }
     } else {
+      // Edges that the whole box is inside of clip nothing.
       double reciprocal[3];
-      for (std::size_t k = 0; k < 3; ++k) reciprocal[k] = 1 / static_cast<double>(edges.step_x[k]);  // unused where infinite
+      std::size_t clipping[3], clipping_count = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::int64_t least =
+            biased_[k] + std::min<std::int64_t>(last_column * edges.step_x[k], 0) + std::min<std::int64_t>(last_row * edges.step_y[k], 0);
+        if (least >= 0) continue;
+        reciprocal[k] = 1 / static_cast<double>(edges.step_x[k]);  // unused where infinite
+        clipping[clipping_count++] = k;
+      }
       for (int row = 0; row <= last_row; ++row) {
         int first = 0, last = last_column;
-        for (std::size_t k = 0; k < 3; ++k) clip_span(biased_[k] + row * edges.step_y[k], edges.step_x[k], reciprocal[k], first, last);
+        for (std::size_t n = 0; n < clipping_count; ++n) {
+          const std::size_t k = clipping[n];
+          clip_span(biased_[k] + row * edges.step_y[k], edges.step_x[k], reciprocal[k], first, last);
+        }
         if (first <= last) write(first, last, row);
       }
     }
   }
 
  private:
-  // With |dx|, |dy| and |step_x| / 2^11 of at most 2^14 sub-texels: over the triangle's box an edge function is below 2·2^28, and 8 columns
-  // more add 8·2^25. Rows need no bound of their own: a box of three columns or more, at most 2^14 wide, has texels of at most 2^13.
-  static bool is_small(const TileEdges& edges) {
-    std::int64_t most = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      most = std::max({most, std::abs(edges.dx[k]), std::abs(edges.dy[k]), std::abs(edges.step_x[k]) >> 11});
-    return most <= 1 << 14;
-  }
-
   void narrow_span(const TileEdges& edges, int row, int& first, int& last) const {
     const std::int64_t at[3] = {biased_[0] + row * edges.step_y[0], biased_[1] + row * edges.step_y[1], biased_[2] + row * edges.step_y[2]};
     const auto inside = [&](int column) {
@@ -163,7 +140,7 @@ class SampleFinder {
       std::copy_n(candidate, lanes, samples_.depth + at);
     } else if (needs_.runner_up) {
       for (int n = 0; n < lanes; ++n) test_with_runner_up(candidate[n], at + n, slot);
-    } else if (lanes <= kShort) {
+    } else if (lanes <= kShortSpan) {
       for (int n = 0; n < lanes; ++n)
         if (candidate[n] < samples_.depth[at + n]) samples_.depth[at + n] = candidate[n], samples_.slot[at + n] = slot;
     } else {
@@ -194,6 +171,19 @@ class SampleFinder {
 
 }  // namespace
 
+TileFrame tile_frame_of(const Frame& frame, const Tile& tile) {
+  const RasterState& state = frame.state;
+  const auto to_subtexels = [&](int texel) { return static_cast<std::int32_t>(texel) << state.subtexel_bits; };
+  return {to_subtexels(tile.x0),
+          to_subtexels(tile.y0),
+          tile.width,
+          tile.height,
+          state.subtexel_bits,
+          state.cull,
+          state.fill_rule == FillRule::left_ymin || state.fill_rule == FillRule::left_ymax,
+          state.fill_rule == FillRule::left_ymin || state.fill_rule == FillRule::right_ymin};
+}
+
 void find_samples(const DrawList& list, const Frame& frame, const Tile& tile, const std::uint32_t* ids, std::size_t count,
                   SampleNeeds needs, const Kernels& kernels, TileSamples& samples, EvaluationCounters& counters) {
   const auto texels = static_cast<std::size_t>(tile.height) * kTileSize;
@@ -201,16 +191,10 @@ void find_samples(const DrawList& list, const Frame& frame, const Tile& tile, co
   if (needs.depth) std::fill_n(samples.depth, texels, 1.0f);
   if (needs.runner_up) std::fill_n(samples.runner_up, texels, std::numeric_limits<float>::infinity());
   SampleFinder finder(list, frame, tile, needs, kernels, samples, counters);
-  // A tile's triangles may lie anywhere in the list: asked for early, their corners first and then those vertices.
-  constexpr std::size_t kAhead = 16;
-  for (std::size_t n = 0; n < count; ++n) {
-    if (n + 2 * kAhead < count) __builtin_prefetch(&list.triangles[ids[n + 2 * kAhead]]);
-    if (n + kAhead < count)
-      for (const std::uint32_t corner : list.triangles[ids[n + kAhead]]) {  // a vertex may lie in two cache lines
-        __builtin_prefetch(&list.vertices[corner]);
-        __builtin_prefetch(reinterpret_cast<const std::byte*>(&list.vertices[corner] + 1) - 1);
-      }
-    finder.draw(ids[n], static_cast<std::uint32_t>(n));
+  if (has_small_path(frame, needs)) {
+    finder.draw_batches(ids, count);
+  } else {
+    for (std::size_t n = 0; n < count; ++n) finder.draw(ids[n], static_cast<std::uint32_t>(n + 1));
   }
 }
 

@@ -7,27 +7,20 @@
 #include <memory>
 
 #include "raster/fast/exact_planes.h"
+#include "raster/fast/visible_triangles.h"
 
 namespace etalon::raster::fast {
 namespace {
 
 // So many texels of one triangle are shaded by themselves: numbers of one triangle are loaded once, those of several gathered.
 constexpr int kLongRun = 16;
-constexpr std::uint32_t kNotVisible = 0xFFFFFFFFu;
-
-// A triangle that some texel of the tile shows.
-struct VisibleTriangle {
-  const Draw* draw;
-  bool perspective;
-  bool exact_tried = false;
-};
 
 // One row's consecutive texels of one draw.
 struct Run {
   int column, row, lanes;
   const Draw* draw;
-  const std::uint32_t* slots;
-  bool uniform, perspective;
+  const std::uint32_t* numbers;  ///< of the texels' triangles
+  bool uniform;                  ///< all of one
 };
 
 class TileShader {
@@ -48,74 +41,66 @@ class TileShader {
       return counters_;
     }
     find_samples(context_.list, context_.frame, tile_, ids_.data(), ids_.size(), needs_, context_.kernels, samples_, counters_);
-    index_of_.assign(ids_.size(), kNotVisible);
-    const std::size_t likely = std::min<std::size_t>(ids_.size(), kTileSize * kTileSize / 8);
-    visible_.reserve(likely), planes_.reserve(likely * static_cast<std::size_t>(context_.layout.stride()));
+    visible_.find(context_.list, tile_, samples_, ids_, context_.kernels);
+    visible_.make_planes(context_.list, context_.frame, tile_, context_.layout, context_.kernels);
+    values_.begin_tile(visible_.planes.get(), visible_.perspective);
+    exact_tried_.assign(visible_.id.size(), false);
     for (int row = 0; row < tile_.height; ++row) shade_row(row);
     return counters_;
   }
 
  private:
-  // Runs of one value are mostly a few texels or a whole row long.
-  [[nodiscard]] int equal_run(const std::uint32_t* numbers, int count) const {
-    const int near = std::min(count, 8);
-    for (int n = 1; n < near; ++n)
-      if (numbers[n] != numbers[0]) return n;
-    return near == count ? count : context_.kernels.equal_run(numbers, count);
-  }
-
-  // The triangle of a slot, its planes made when the first texel shows it.
-  std::uint32_t visible_index(std::uint32_t slot) {
-    std::uint32_t& index = index_of_[slot];
-    if (index != kNotVisible) return index;
-    const std::uint32_t id = ids_[slot];
-    const Draw* draw = visible_.empty() ? nullptr : visible_.back().draw;
-    if (draw == nullptr || id - draw->first_triangle >= draw->triangle_count) draw = &context_.list.draw_of(id);
-    const std::size_t at = planes_.size();
-    planes_.resize(at + static_cast<std::size_t>(context_.layout.stride()));
-    const bool perspective = make_planes(context_.list, id, context_.frame, tile_, context_.layout, planes_.data() + at);
-    visible_.push_back({draw, perspective});
-    return index = static_cast<std::uint32_t>(visible_.size() - 1);
-  }
-
   void shade_row(int row) {
-    const std::uint32_t* const slots = samples_.slot + row * kTileSize;
+    const std::uint32_t* const numbers = visible_.number + row * kTileSize;
     for (int column = 0; column < tile_.width;) {
-      int equal = equal_run(slots + column, tile_.width - column);
-      if (slots[column] == kNoSlot) {
-        clear(column, row, equal);
-        column += equal;
-        continue;
+      const int rest = tile_.width - column;
+      if (numbers[column] == 0) {
+        const int lanes = context_.kernels.equal_run(numbers + column, rest);
+        clear(column, row, lanes);
+        column += lanes;
+      } else {
+        const int end = column + of_one_draw(numbers + column, context_.kernels.nonzero_run(numbers + column, rest));
+        while (column < end) {
+          const Run run = next_run(column, row, end);
+          shade(run);
+          column += run.lanes;
+        }
       }
-      Run run = {column, row, 0, nullptr, slots + column, true, false};
-      while (append(run, equal) && equal < kLongRun && column + run.lanes < tile_.width && slots[column + run.lanes] != kNoSlot) {
-        equal = equal_run(slots + column + run.lanes, tile_.width - column - run.lanes);
-        if (equal >= kLongRun) break;  // a run of its own
-      }
-      shade(run);
-      column += run.lanes;
     }
   }
 
-  // Takes the next `lanes` texels, which show one triangle, into the run; false, and nothing taken, where they are of another draw.
-  bool append(Run& run, int lanes) {
-    const std::uint32_t index = visible_index(run.slots[run.lanes]);
-    const VisibleTriangle& triangle = visible_[index];
-    if (run.draw == nullptr) run.draw = triangle.draw;
-    if (triangle.draw != run.draw) return false;
-    std::fill_n(offset_.at + run.lanes, lanes, static_cast<std::int64_t>(index) * context_.layout.stride());
-    run.uniform = run.lanes == 0;
-    run.lanes += lanes;
-    run.perspective |= triangle.perspective;
-    return true;
+  [[nodiscard]] int of_one_draw(const std::uint32_t* numbers, int count) const {
+    if (context_.list.draws.size() == 1) return count;
+    int n = 1;
+    while (n < count && visible_.draw[numbers[n]] == visible_.draw[numbers[0]]) ++n;
+    return n;
+  }
+
+  // A long run of one triangle, or what comes before the next one.
+  [[nodiscard]] Run next_run(int column, int row, int end) const {
+    const std::uint32_t* const numbers = visible_.number + row * kTileSize + column;
+    const int most = end - column;
+    const auto equal_from = [&](int n) {
+      if (n + kLongRun > most || numbers[n] != numbers[n + kLongRun - 1]) return 0;
+      const int equal = context_.kernels.equal_run(numbers + n, most - n);
+      return equal >= kLongRun ? equal : 0;
+    };
+    int lanes = equal_from(0);
+    bool uniform = lanes > 0;
+    if (!uniform) {
+      lanes = std::min(kLongRun, most);
+      while (lanes < most && equal_from(lanes) == 0) lanes = std::min(lanes + kLongRun, most);
+      uniform = numbers[0] == numbers[lanes - 1] && context_.kernels.equal_run(numbers, lanes) == lanes;
+    }
+    return {column, row, lanes, visible_.draw[*numbers], numbers, uniform};
   }
 
   void shade(const Run& run) {
-    for (int n = run.lanes; n % 8 != 0; ++n) offset_.at[n] = offset_.at[0];  // the last vector's lanes behind the run are computed too
-    if (context_.layout.stride() > kFirstPlane)
-      values_.begin({planes_.data(), &offset_, run.uniform, run.perspective}, run.lanes, run.column, run.row);
+    begin(run);
     for (std::size_t n = 0; n < images_.size(); ++n) shade_target(run, n);
   }
+
+  void begin(const Run& run) { values_.begin(run.numbers, run.uniform, run.lanes, run.column, run.row); }
 
   void shade_target(const Run& run, std::size_t n) {
     const TargetSpec& target = context_.frame.targets[n];
@@ -140,7 +125,7 @@ class TileShader {
       case TargetContent::coordinate: undecided = values_.store_coordinate(target, texels); break;
       case TargetContent::barycentrics: undecided = values_.store_barycentrics(target, texels); break;
       case TargetContent::triangle_id:
-        for (int lane = 0; lane < run.lanes; ++lane) std::memcpy(texels + 4 * lane, &ids_[run.slots[lane]], 4);
+        for (int lane = 0; lane < run.lanes; ++lane) std::memcpy(texels + 4 * lane, &visible_.id[run.numbers[lane]], 4);
         break;
       case TargetContent::depth:
         std::memcpy(texels, samples_.depth + run.row * kTileSize + run.column, sizeof(float) * static_cast<std::size_t>(run.lanes));
@@ -163,20 +148,18 @@ class TileShader {
     if (!looks_up || run.draw->shading == Shading::vertex_color) return false;
     bool some = false;
     for (; undecided != 0; undecided &= undecided - 1) {
-      const std::uint32_t slot = run.slots[std::countr_zero(undecided)];
-      VisibleTriangle& triangle = visible_[index_of_[slot]];
-      if (triangle.exact_tried) continue;
-      triangle.exact_tried = true;
-      double* const planes =
-          planes_.data() + static_cast<std::size_t>(index_of_[slot]) * static_cast<std::size_t>(context_.layout.stride());
-      some |= make_uv_planes_exact(context_.list, ids_[slot], context_.frame, tile_, context_.layout, planes);
+      const std::uint32_t number = run.numbers[std::countr_zero(undecided)];
+      if (exact_tried_[number]) continue;
+      exact_tried_[number] = true;
+      double* const planes = visible_.planes.get() + static_cast<std::ptrdiff_t>(number) * context_.layout.stride();
+      some |= make_uv_planes_exact(context_.list, visible_.id[number], context_.frame, tile_, context_.layout, planes);
     }
-    if (some) values_.begin({planes_.data(), &offset_, run.uniform, run.perspective}, run.lanes, run.column, run.row);
+    if (some) begin(run);
     return some;
   }
 
   void store_alone(const Run& run, int lane, const TargetSpec& target, std::byte* texel) {
-    const std::uint32_t id = ids_[run.slots[lane]];
+    const std::uint32_t id = visible_.id[run.numbers[lane]];
     if (id != current_) setup_ = make_triangle_setup(context_.list, id, context_.frame), current_ = id;
     // An affine triangle's gradients are the same at every sample.
     const bool constant = target.content == TargetContent::bound_terms && setup_.affine;
@@ -214,11 +197,9 @@ class TileShader {
   SampleNeeds needs_;
   EvaluationCounters counters_;
   TileSamples samples_;
-  std::vector<std::uint32_t> index_of_;  ///< per slot, into visible_
-  std::vector<VisibleTriangle> visible_;
-  std::vector<double> planes_;
+  VisibleTriangles visible_;
+  std::vector<bool> exact_tried_;  ///< by number
   RunValues values_;
-  OffsetLanes offset_{};
   std::uint32_t current_ = kNoTriangle;  ///< whose setup setup_ is
   TriangleSetup setup_;
   std::uint32_t bound_terms_of_ = kNoTriangle;  ///< whose bound_terms_ are
