@@ -152,7 +152,7 @@ void SceneBench::measure_round() {
 
 void SceneBench::drop_rounds() {
   result_.others.clear();
-  for (Way& way : result_.ways) way.milliseconds.clear();
+  choose_runs(result_.ways);
 }
 
 }  // namespace etalon::bench

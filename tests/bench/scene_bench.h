@@ -37,7 +37,7 @@ class SceneBench {
   void measure_round();
   /// SceneResult::keep_quiet_rounds.
   std::size_t keep_quiet_rounds(double most_others, std::size_t fewest) { return result_.keep_quiet_rounds(most_others, fewest); }
-  /// Forgets the rounds measured so far.
+  /// Forgets the rounds measured so far, and sets by the first of them how many runs a turn has.
   void drop_rounds();
   [[nodiscard]] const SceneResult& result() const { return result_; }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 namespace etalon::bench {
@@ -11,8 +12,16 @@ void measure_round(std::vector<Way>& ways) {
     // TBB's workers look for work for some time before they sleep; they must not take the next way's cores.
     std::this_thread::sleep_for(std::chrono::milliseconds(3));
     const auto start = std::chrono::steady_clock::now();
-    way.run();
-    way.milliseconds.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    for (int n = 0; n < way.runs; ++n) way.run();
+    way.milliseconds.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() / way.runs);
+  }
+}
+
+void choose_runs(std::vector<Way>& ways) {
+  constexpr double kMostRuns = 1000;
+  for (Way& way : ways) {
+    way.runs = static_cast<int>(std::clamp(std::ceil(kLeastTurn_ms / std::max(way.milliseconds.front(), 1e-3)), 1.0, kMostRuns));
+    way.milliseconds.clear();
   }
 }
 

@@ -12,11 +12,17 @@ namespace etalon::bench {
 struct Way {
   std::string name;
   std::function<void()> run;
-  std::vector<double> milliseconds;  ///< by round
+  std::vector<double> milliseconds;  ///< by round, of one run
+  int runs = 1;                      ///< one after the other in a turn
 };
 
-/// One round: runs each way once, in order, after a pause in which the threads of the one before go to sleep.
+/// One round: each way takes its turn, in order, after a pause in which the threads of the one before go to sleep.
 void measure_round(std::vector<Way>& ways);
+
+/// Makes turns long enough that waking threads and filling caches is a small part of them, as it is where frame follows frame: as many runs
+/// as the first round's times say that kLeastTurn_ms takes. Forgets those times.
+inline constexpr double kLeastTurn_ms = 30;
+void choose_runs(std::vector<Way>& ways);
 
 /// The middle of the sorted values (the mean of the middle two); `values` is not empty.
 [[nodiscard]] double median(std::vector<double> values);

@@ -17,6 +17,21 @@ TEST_CASE("timing: ways take turns") {
   for (const double time : ways[1].milliseconds) CHECK(time >= 0);
 }
 
+TEST_CASE("timing: short runs follow one another in a turn") {
+  int runs = 0;
+  std::vector<Way> ways = {{"short", [&] { ++runs; }, {}}, {"long", [] {}, {}}};
+  measure_round(ways);
+  ways[0].milliseconds = {kLeastTurn_ms / 2.5}, ways[1].milliseconds = {2 * kLeastTurn_ms};
+  choose_runs(ways);
+  CHECK(ways[0].runs == 3);
+  CHECK(ways[1].runs == 1);
+  CHECK(ways[0].milliseconds.empty());
+  runs = 0;
+  measure_round(ways);
+  CHECK(runs == 3);
+  CHECK(ways[0].milliseconds.size() == 1);
+}
+
 TEST_CASE("timing: median, quartiles, ratios of the same round") {
   CHECK(median({3}) == 3);
   CHECK(median({9, 1, 2}) == 2);
