@@ -19,7 +19,8 @@ namespace etalon::simplify {
 /// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged then; a
 /// refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of the
 /// vertex change (the link condition of u→v eases only where u loses a neighbour, everything else depends on the faces of u and the place
-/// of v), and then all its candidates are considered anew. So the first candidate that is legal when popped is the least of all.
+/// of v), and then all its candidates are considered anew. So the first candidate that is legal when popped is the least of all. (One exception:
+/// beside a place of several fans, where another fan's faces decide the link condition too, a collapse that becomes legal may be seen late.)
 template <class Metric>
 class CollapseLoop {
  public:

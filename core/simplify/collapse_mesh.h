@@ -2,6 +2,7 @@
 // Does not: judge a collapse (legality.h), price it (qem_metric.h), or choose where a vertex moves (placement.h).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -66,6 +67,16 @@ class CollapseMesh {
     return v < source_->vertex_count() ? v : extra_origin_[v - source_->vertex_count()];
   }
   [[nodiscard]] const Vec3f& position(std::uint32_t v) const { return (moves_ ? positions_ : source_->positions)[origin(v)]; }
+  /// Calls visit(w) for every engine vertex at the source's vertex that v is at, v among them.
+  template <class Visit>
+  void for_each_fan(std::uint32_t v, const Visit& visit) const {
+    if (extra_origin_.empty()) return visit(v);
+    const std::uint32_t at = origin(v);
+    visit(at);
+    for (auto extra = std::lower_bound(extra_origin_.begin(), extra_origin_.end(), at); extra != extra_origin_.end() && *extra == at;
+         ++extra)
+      visit(static_cast<std::uint32_t>(source_->vertex_count() + static_cast<std::size_t>(extra - extra_origin_.begin())));
+  }
   /// Only where the source has colours.
   [[nodiscard]] const Vec4f& color(std::uint32_t v) const { return (moves_ ? colors_ : source_->colors)[origin(v)]; }
   /// Wedge at the start of a half-edge.
@@ -145,7 +156,7 @@ class CollapseMesh {
   std::vector<std::uint32_t> wedges_;  // by half-edge; empty without uv
   std::vector<std::uint32_t> out_;
   std::vector<VertexKind> kinds_;
-  std::vector<std::uint32_t> extra_origin_;
+  std::vector<std::uint32_t> extra_origin_;  // ascending
   std::uint32_t face_count_ = 0;
   bool moves_ = false;
   std::vector<Vec3f> positions_;  // #V of the source, where moves are allowed; likewise the next two

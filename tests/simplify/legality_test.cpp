@@ -38,6 +38,17 @@ TEST_CASE("link: a third common neighbour") {
   CHECK(judge(torus(), 0, 1) == Refusal::link);
 }
 
+TEST_CASE("link: a hole between two fans of one vertex may not close") {
+  // Two squares of two triangles that share vertex 0 and are joined at the far side of a triangular hole 0, 1, 2: vertex 0 has a fan with 1 and one with 2.
+  const Mesh pinched = mesh_of({{0, 0, 0}, {1, 1, 0}, {1, -1, 0}, {0, 2, 0}, {0, -2, 0}, {3, 0, 0}},
+                               {{0, 1, 3}, {0, 4, 2}, {1, 5, 3}, {4, 5, 2}, {1, 2, 5}});
+  const CollapseMesh mesh(pinched, {});
+  REQUIRE(mesh.repair().non_manifold_vertices.count == 1);
+  // 1 into 0 along the hole: then 0-2 would be an edge of both fans.
+  CHECK(judge(pinched, 1, 0) == Refusal::link);
+  CHECK(judge(pinched, 2, 6) == Refusal::link);  // the second fan's vertex 0
+}
+
 TEST_CASE("the last faces: a tetrahedron, a triangle") {
   CHECK(judge(tetrahedron(), 0, 1) == Refusal::last_faces);
   const Mesh triangle = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
