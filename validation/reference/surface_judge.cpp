@@ -16,9 +16,11 @@ Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], 
 double times(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double apart2(const Point& a, const Point& b) { return times(minus(a, b), minus(a, b)); }
 
+/// At right angles to both, as long as their parallelogram is large.
+Point across(const Point& s, const Point& t) { return {s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]}; }
+
 double area(const Point& a, const Point& b, const Point& c) {
-  const Point s = minus(b, a), t = minus(c, a);
-  const Point n{s[1] * t[2] - s[2] * t[1], s[2] * t[0] - s[0] * t[2], s[0] * t[1] - s[1] * t[0]};
+  const Point n = across(minus(b, a), minus(c, a));
   return 0.5 * std::sqrt(times(n, n));
 }
 
@@ -59,8 +61,9 @@ Candidate nearest_of_triangle(const Point& p, const std::array<Point, 3>& corner
   if (along_b[0] <= 0 && along_c[0] <= 0) return at_corner(0);
   if (along_b[1] >= 0 && along_c[1] <= along_b[1]) return at_corner(1);
   if (along_c[2] >= 0 && along_b[2] <= along_c[2]) return at_corner(2);
-  const double of_a = along_b[1] * along_c[2] - along_b[2] * along_c[1], of_b = along_b[2] * along_c[0] - along_b[0] * along_c[2],
-               of_c = along_b[0] * along_c[1] - along_b[1] * along_c[0];
+  const Point n = across(minus(b, a), minus(c, a));
+  const double of_a = times(n, across(minus(c, b), minus(p, b))), of_b = times(n, across(minus(p, a), minus(c, a))),
+               of_c = times(n, across(minus(b, a), minus(p, a)));
   const double all = of_a + of_b + of_c;
   const double least_area2 = 0x1p-48 * (times(minus(b, a), minus(b, a)) * times(minus(c, a), minus(c, a)));
   if (of_a > 0 && of_b > 0 && of_c > 0 && all > least_area2) {
