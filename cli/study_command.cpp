@@ -60,13 +60,21 @@ void print_outcome(const KimStudyResult& result, const StudyReport& report, Cons
     console.line(fmt::format("{:<6} {} {}", to_string(claim.verdict), claim.claim, claim.measured));
 }
 
+/// What to type to repeat it, paths by their last part.
+std::string command_of(const Options& options) {
+  std::string command = "etalon study " + options.study;
+  for (const std::string& model : options.subjects.models) command += " " + std::filesystem::path(model).filename().string();
+  return command + (options.subjects.quick ? " --quick" : "");
+}
+
 int run(const Options& options) {
   apply(options.common);
   const std::string folder = options.report.empty() ? "etalon-study-" + options.study : options.report;
   require_writable_folder(folder);
   Console console(console_options(options.common));
   CallFiles files;
-  for (const char* name : {"index.html", "study.json"}) files.add_output((std::filesystem::path(folder) / name).string(), "--report");
+  for (const char* name : {"index.html", "study.json", "study.md"})
+    files.add_output((std::filesystem::path(folder) / name).string(), "--report");
   files.add_output(options.common.json, "--json");
   require_writable_file(options.common.json);
   const std::vector<KimSubject> subjects = load_subjects(options.subjects, console, files);
@@ -86,7 +94,7 @@ int run(const Options& options) {
   std::filesystem::path page;
   {
     const FinishWriting finish;
-    page = write_study(folder, report, run_info);
+    page = write_study(folder, report, run_info, command_of(options));
   }
   console.line("report: " + file_url(page));
   write_document(options.common, study_document(report, run_info));

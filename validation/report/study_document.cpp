@@ -7,6 +7,7 @@
 #include "core/io/atomic_file.h"
 #include "core/io/image_file.h"
 #include "validation/report/json_report.h"
+#include "validation/report/study_markdown.h"
 #include "validation/report/study_page.h"
 
 namespace etalon::validation {
@@ -56,10 +57,11 @@ std::vector<const StudyPicture*> pictures_of(const StudyReport& report) {
 }
 
 /// File name and bytes, index.html last.
-std::vector<std::pair<std::string, std::string>> contents(const StudyReport& report, const RunInfo& run) {
+std::vector<std::pair<std::string, std::string>> contents(const StudyReport& report, const RunInfo& run, const std::string& command) {
   std::vector<std::pair<std::string, std::string>> files;
   for (const StudyPicture* picture : pictures_of(report)) files.emplace_back(picture->file, io::encode_png(picture->image, picture->file));
   for (const StudyTable& table : report.tables) files.emplace_back(table.name + ".csv", study_csv(table));
+  files.emplace_back("study.md", study_markdown(report, run, command, measured_on(run)));
   files.emplace_back("study.json", to_text(study_document(report, run)));
   files.emplace_back("index.html", study_page(report, run));
   return files;
@@ -119,17 +121,18 @@ std::vector<std::string> study_files(const StudyReport& report) {
   std::vector<std::string> names;
   for (const StudyPicture* picture : pictures_of(report)) names.push_back(picture->file);
   for (const StudyTable& table : report.tables) names.push_back(table.name + ".csv");
-  names.insert(names.end(), {"study.json", "index.html"});
+  names.insert(names.end(), {"study.md", "study.json", "index.html"});
   return names;
 }
 
-std::filesystem::path write_study(const std::filesystem::path& folder, const StudyReport& report, const RunInfo& run) {
+std::filesystem::path write_study(const std::filesystem::path& folder, const StudyReport& report, const RunInfo& run,
+                                  const std::string& command) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
     throw WriteError(fmt::format("{}: {}", folder.string(), error ? error.message() : "is not a folder"));
   std::vector<std::pair<std::filesystem::path, std::string>> files;
-  for (auto& [name, bytes] : contents(report, run)) files.emplace_back(folder / name, std::move(bytes));
+  for (auto& [name, bytes] : contents(report, run, command)) files.emplace_back(folder / name, std::move(bytes));
   io::write_files(files);
   return files.back().first;
 }

@@ -1,4 +1,4 @@
-// The files of a study: one folder with index.html (self-contained), study.json, a CSV file a table, a PNG file a picture.
+// The files of a study: one folder with index.html (self-contained), study.json, study.md, a CSV file a table, a PNG file a picture.
 #pragma once
 
 #include <filesystem>
@@ -23,8 +23,9 @@ namespace etalon::validation {
 /// The names of the files that write_study would write into its folder, index.html last.
 [[nodiscard]] std::vector<std::string> study_files(const StudyReport& report);
 
-/// Writes all of them (the folder is made where it does not exist): all are complete on the disk before the first takes its place. Returns the
+/// `command`: what to type to repeat it (study_markdown.h). Writes all of them (the folder is made where it does not exist): all are complete on the disk before the first takes its place. Returns the
 /// path of index.html. WriteError.
-std::filesystem::path write_study(const std::filesystem::path& folder, const StudyReport& report, const RunInfo& run);
+std::filesystem::path write_study(const std::filesystem::path& folder, const StudyReport& report, const RunInfo& run,
+                                  const std::string& command);
 
 }  // namespace etalon::validation

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "tests/io/scratch.h"
+#include "validation/report/study_markdown.h"
 
 using namespace etalon;
 using namespace etalon::validation;
@@ -66,9 +67,9 @@ TEST_CASE("the page escapes, stands alone, and the folder holds every file") {
   CHECK(page.find("http://") == std::string::npos);
   CHECK(page.find("https://") == std::string::npos);
   const test::ScratchFolder folder;
-  const std::filesystem::path written = write_study(folder.path() / "deep" / "study", sample(), {});
+  const std::filesystem::path written = write_study(folder.path() / "deep" / "study", sample(), {}, "etalon study sample");
   CHECK(written.filename() == "index.html");
-  CHECK(study_files(sample()) == std::vector<std::string>{"p.png", "sizes.csv", "times.csv", "study.json", "index.html"});
+  CHECK(study_files(sample()) == std::vector<std::string>{"p.png", "sizes.csv", "times.csv", "study.md", "study.json", "index.html"});
   for (const std::string& file : study_files(sample())) {
     CAPTURE(file);
     CHECK(!text_of(written.parent_path() / file).empty());
@@ -76,8 +77,22 @@ TEST_CASE("the page escapes, stands alone, and the folder holds every file") {
   CHECK(text_of(written) == page);
 }
 
+TEST_CASE("the page of documentation: what was typed, when and where, claims, tables that are not folded") {
+  StudyReport report = sample();
+  report.tables[0].columns[0] = "a|b";
+  const std::string text = study_markdown(report, {.version = "9"}, "etalon study sample", "2001-02-03, a processor, 2 threads");
+  CHECK(text.find("*Written by `etalon study sample`, etalon 9: 2001-02-03, a processor, 2 threads.*") != std::string::npos);
+  CHECK(text.find("- **fails**: quick (table 2) 2 s *slow*") != std::string::npos);
+  CHECK(text.find("| a\\|b | count | none |\n|---|---:|---:|\n| a, \"b\" | 1,234 | – |") != std::string::npos);
+  CHECK(text.find("Times") == std::string::npos);
+  RunInfo run;
+  run.threads = 1;
+  CHECK(measured_on(run).find(", 1 thread") != std::string::npos);
+  CHECK(measured_on(run).size() > std::string("2026-11-22, x, 1 thread").size());
+}
+
 TEST_CASE("a study that cannot be written is a WriteError") {
   const test::ScratchFolder folder;
   { std::ofstream(folder.path() / "file") << "x"; }
-  CHECK_THROWS_AS((void)write_study(folder.path() / "file", sample(), {}), WriteError);
+  CHECK_THROWS_AS((void)write_study(folder.path() / "file", sample(), {}, ""), WriteError);
 }
