@@ -113,6 +113,7 @@ Json document_of(const Options& options, const Job& job, const SimplifyResult& r
                         {"inconsistent_edges", to_json(result.repair.inconsistent_edges)},
                         {"non_manifold_vertices", to_json(result.repair.non_manifold_vertices)},
                         {"unreferenced_vertices", to_json(result.repair.unreferenced_vertices)},
+                        {"color_seam_vertices", to_json(result.repair.color_seam_vertices)},
                         {"welded_vertices", job.vertices_read - job.model.mesh.vertex_count()}};
   document["mesh_sha256"] = mesh_sha256(result.mesh);
   validation::RunInfo run = validation::current_run(options.common.start);
@@ -136,6 +137,7 @@ void print_notes(Console& console, const Job& job, const SimplifyResult& result)
   say(result.repair.non_manifold_edges, "edges of more than two faces", "face", "kept as they are");
   say(result.repair.inconsistent_edges, "edges between faces of opposite orientation", "face", "kept as they are");
   say(result.repair.non_manifold_vertices, "vertices whose faces are not one fan", "vertex", "kept as they are");
+  say(result.repair.color_seam_vertices, "boundary vertices that share their place with another colour", "vertex", "kept as they are");
   say(result.repair.unreferenced_vertices, "vertices of no face", "vertex", "dropped");
 }
 

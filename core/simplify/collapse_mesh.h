@@ -30,6 +30,8 @@ struct InputRepair {
   Defect inconsistent_edges;     ///< lowest faces at an edge that both its faces run along in the same direction: cut, ends locked
   Defect non_manifold_vertices;  ///< vertices whose faces do not form one fan: locked
   Defect unreferenced_vertices;  ///< vertices of no face: left out of the result
+  Defect
+      color_seam_vertices;  ///< boundary vertices that share their place with one of another colour: locked, or the surface would open there
   [[nodiscard]] bool non_manifold() const {
     return non_manifold_edges.found() || inconsistent_edges.found() || non_manifold_vertices.found();
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <tuple>
 
 #include "core/base/error.h"
 #include "core/simplify/collapse_mesh.h"
@@ -33,6 +34,7 @@ class CollapseMeshBuilder {
     join();
     find_fans();
     mark_curves();
+    find_color_seams();
     classify(locked);
     texture_signs();
   }
@@ -226,6 +228,28 @@ class CollapseMeshBuilder {
                            (mesh_.has_uv && (uv(h) != uv(CollapseMesh::next(o)) || uv(CollapseMesh::next(h)) != uv(o)));
         if (curve) to_.faces_[f].flags |= 1u << k;
       }
+    }
+  }
+
+  // Vertices have one colour each, so where colours part the surface is in two pieces that touch: they must not move apart.
+  void find_color_seams() {
+    if (mesh_.colors.empty()) return;
+    std::vector<std::uint32_t> open;
+    for (std::uint32_t v = 0; v < mesh_.vertex_count(); ++v)
+      if (to_.vertex_alive(v) && to_.on_boundary(v)) open.push_back(v);
+    const auto key = [&](std::uint32_t v) { return std::tuple(mesh_.positions[v].x, mesh_.positions[v].y, mesh_.positions[v].z); };
+    std::sort(open.begin(), open.end(), [&](std::uint32_t a, std::uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = 0, end = 0; i < open.size(); i = end) {
+      bool parts = false;
+      for (end = i; end < open.size() && key(open[end]) == key(open[i]); ++end)
+        parts = parts || mesh_.colors[open[end]] != mesh_.colors[open[i]];
+      if (parts) found.insert(found.end(), open.begin() + static_cast<std::ptrdiff_t>(i), open.begin() + static_cast<std::ptrdiff_t>(end));
+    }
+    std::sort(found.begin(), found.end());
+    for (const std::uint32_t v : found) {
+      note(to_.repair_.color_seam_vertices, v);
+      must_stay_[v] = true;
     }
   }
 

@@ -149,6 +149,45 @@ TEST_CASE("a seam stays a seam: closed in space, parted in texture, charts not t
   CHECK(result.locked_vertices == 2);
 }
 
+TEST_CASE("where colours part, two pieces touch: they stay together") {
+  // A bumpy grid, red on the left, blue on the right; the middle column once in each colour.
+  const Mesh grid = bumpy_grid(8, 0.2f, 4);
+  Mesh parted = grid;
+  parted.has_uv = false;
+  parted.colors.assign(grid.vertex_count(), {1, 0, 0, 1});
+  std::vector<std::uint32_t> twin(grid.vertex_count(), kNone);
+  for (auto& face : parted.faces) {
+    float x = 0;
+    for (const WedgeId w : face) x += grid.positions[grid.wedges[w.index].vertex.index].x / 3;
+    if (x < 0.5f) continue;
+    for (WedgeId& w : face) {
+      const std::uint32_t v = grid.wedges[w.index].vertex.index;
+      if (grid.positions[v].x > 0.5f) {
+        parted.colors[v] = {0, 0, 1, 1};
+        continue;
+      }
+      if (twin[v] == kNone) {
+        twin[v] = static_cast<std::uint32_t>(parted.wedge_count());
+        parted.wedges.push_back({VertexId(static_cast<std::uint32_t>(parted.vertex_count())), {0, 0}});
+        parted.positions.push_back(grid.positions[v]);
+        parted.colors.push_back({0, 0, 1, 1});
+      }
+      w = WedgeId(twin[v]);
+    }
+  }
+  for (const CollapseKind collapse : {CollapseKind::half, CollapseKind::full}) {
+    const SimplifyResult result = simplify_mesh(parted, {.metric = MetricName::qem6, .collapse = collapse, .target_faces = 40});
+    CHECK(result.repair.color_seam_vertices.count == 18);
+    CHECK(result.mesh.face_count() <= 60);
+    int on_seam = 0;
+    for (const Vec3f& p : result.mesh.positions) on_seam += p.x == 0.5f ? 1 : 0;
+    CHECK(on_seam == 18);
+  }
+  // Of one colour they are not told apart from two pieces that happen to touch.
+  parted.colors.assign(parted.vertex_count(), {1, 0, 0, 1});
+  CHECK_FALSE(simplify_mesh(parted, {.target_faces = 40}).repair.color_seam_vertices.found());
+}
+
 TEST_CASE("locked vertices stay") {
   const Mesh sphere = bumpy_sphere(6, 0.2f, 3);
   std::vector<VertexId> locked;
