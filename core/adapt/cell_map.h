@@ -1,0 +1,20 @@
+// The piecewise affine map between the textures before and after a collapse, without any resampling: the exact limit of adaptation.
+#pragma once
+
+#include <optional>
+
+#include "core/adapt/ring_cells.h"
+
+namespace etalon::adapt {
+
+enum class AdaptDirection : std::uint8_t {
+  to_before,  ///< from the texture after the collapse to the one before it: what a texel of T^(i−1) shows, forward adaptation
+  to_after,   ///< its inverse: backward adaptation
+};
+
+/// The image of texture coordinate `p`; nothing where no cell holds it. In double: within 2^-45 of the largest coordinate for cells whose
+/// height is at least 2^-6 of their longest edge, and inverse to the other direction to that. On an edge of cells both give the same point
+/// up to rounding; the lower cell is taken.
+[[nodiscard]] std::optional<Vec2d> map_point(const RingCells& cells, AdaptDirection direction, const Vec2d& p);
+
+}  // namespace etalon::adapt

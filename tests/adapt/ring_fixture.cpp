@@ -1,0 +1,49 @@
+#include "tests/adapt/ring_fixture.h"
+
+#include <algorithm>
+
+#include "core/procedural/smooth_math.h"
+
+namespace etalon::test {
+namespace {
+
+// Corners around the middle of the unit square, by ascending angle; u near the middle, or on the edge between the first and the last.
+void random_star(Rng& rng, int corners, bool on_curve, Vec2f& u, std::vector<Vec2f>& around) {
+  std::vector<double> turns;
+  for (int k = 0; k < corners; ++k) turns.push_back(rng.unit() * (on_curve ? 0.5 : 1));
+  std::sort(turns.begin(), turns.end());
+  around.clear();
+  for (const double turn : turns) {
+    const double radius = 0.15 + 0.3 * rng.unit();
+    around.push_back(Vec2f(Vec2d(0.5 + radius * procedural::cos_turns(turn), 0.5 + radius * procedural::sin_turns(turn))));
+  }
+  const auto near_middle = [&] { return 0.5f + 0.1f * rng.uniform(-1, 1); };
+  u = {near_middle(), near_middle()};
+}
+
+bool unfolded(const Vec2f& u, const std::vector<Vec2f>& around, bool on_curve) {
+  adapt::CollapseRing ring;
+  ring.uv_of_u = u, ring.uv = around, ring.on_curve = on_curve;
+  return adapt::is_unfolded(ring);
+}
+
+}  // namespace
+
+adapt::CollapseRing random_ring(Rng& rng, int corners, bool planar, bool on_curve) {
+  adapt::CollapseRing ring;
+  ring.on_curve = on_curve;
+  do random_star(rng, corners, on_curve, ring.uv_of_u, ring.uv);
+  while (!unfolded(ring.uv_of_u, ring.uv, on_curve));
+  Vec2f u;
+  std::vector<Vec2f> plane;
+  do random_star(rng, corners, on_curve, u, plane);
+  while (planar && !unfolded(u, plane, on_curve));
+  const auto lift = [&](const Vec2f& p) {
+    return planar ? Vec3f{p.x, p.y, 0.25f * p.x + 0.5f * p.y} : Vec3f{p.x, p.y, 0.3f * rng.uniform(-1, 1)};
+  };
+  ring.position_of_u = lift(u);
+  for (const Vec2f& p : plane) ring.positions.push_back(lift(p));
+  return ring;
+}
+
+}  // namespace etalon::test
