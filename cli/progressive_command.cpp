@@ -58,13 +58,20 @@ void finish(const Options& options, Console& console, Json document) {
   if (!options.common.json.empty() && options.common.json != "-") console.line("wrote " + options.common.json);
 }
 
+/// The name as .epm may hold it: without control characters.
+std::string printable(std::string name) {
+  for (char& c : name)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+  return name;
+}
+
 int make_file(const Options& options, Console& console, CallFiles& files) {
   io::LoadedModel model = io::read_mesh(options.input);
   add_side_files(files, model);
   files.add_output(options.output, "-o");
   files.add_output(options.common.json, "--json");
   const Mesh mesh = welded_by_position(model.mesh);
-  const progressive::ProgressiveResult made = naming_the_model(options.input, [&] {
+  progressive::ProgressiveResult made = naming_the_model(options.input, [&] {
     simplify::SimplifyOptions how;
     if (options.metric == "kim") how.metric = simplify::MetricName::kim;
     how.target_faces = static_cast<std::size_t>(options.faces);
@@ -73,6 +80,7 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
     };
     return progressive::make_progressive(mesh, how);
   });
+  for (const io::Material& material : model.materials) made.data.material_names.push_back(printable(material.name));
   const std::string bytes = progressive::encode_epm(made.data);
   {
     const FinishWriting writing;
@@ -98,14 +106,16 @@ int take_level(const Options& options, Console& console, CallFiles& files) {
   progressive::EpmContent content = naming_the_model(options.input, [&] { return progressive::decode_epm(file.bytes()); });
   content.mesh.go_to_faces(static_cast<std::size_t>(options.faces));
   const Mesh mesh = content.mesh.mesh();
-  const std::vector<io::Material> no_names;
-  Mesh plain = mesh;
-  plain.face_materials.clear();
-  for (const std::filesystem::path& path : io::mesh_output_files(options.output, no_names)) files.add_output(path.string(), "-o");
+  // A file of before had no names; then the indices mean nothing.
+  std::vector<io::Material> materials;
+  for (const std::string& name : content.mesh.data().material_names) materials.push_back({.name = name, .texture_path = {}, .texture = {}});
+  Mesh named = mesh;
+  if (materials.empty()) named.face_materials.clear();
+  for (const std::filesystem::path& path : io::mesh_output_files(options.output, materials)) files.add_output(path.string(), "-o");
   files.add_output(options.common.json, "--json");
   {
     const FinishWriting writing;
-    io::write_mesh(options.output, plain, no_names);
+    io::write_mesh(options.output, named, materials);
   }
   if (!content.complete)
     console.line(fmt::format("note: {} is cut short: {} of {} splits", options.input, grouped(content.mesh.split_count()),

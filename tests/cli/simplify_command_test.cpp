@@ -215,6 +215,20 @@ TEST_CASE("progressive: a level of the file is the simplified model; a cut file 
   check_refused({"progressive", "missing.obj", "-o", "b.epm"}, 4, folder, "missing.obj");
 }
 
+TEST_CASE("progressive: materials keep their names and their faces") {
+  const ScratchFolder folder;
+  folder.file("two.mtl", "newmtl wood\nnewmtl old skin\n");
+  folder.file("two.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl old skin\nf 1 2 3\nusemtl wood\nf 1 3 4\n");
+  REQUIRE(run_etalon({"progressive", "two.obj", "-o", "two.epm"}, {.folder = folder.path()}).exit_code == 0);
+  REQUIRE(run_etalon({"progressive", "two.epm", "--faces", "2", "-o", "again.obj"}, {.folder = folder.path()}).exit_code == 0);
+  const std::string again = read_text(folder.path() / "again.obj");
+  const auto skin = again.find("usemtl old skin\n"), wood = again.find("usemtl wood\n");
+  REQUIRE(skin != std::string::npos);
+  REQUIRE(wood != std::string::npos);
+  CHECK(again.find("f 1", skin) < wood);
+  CHECK(read_text(folder.path() / "again.mtl").find("newmtl wood") != std::string::npos);
+}
+
 TEST_CASE("metro: the document, the same bytes for every thread count, colours where both have them") {
   const ScratchFolder folder;
   const std::string header =
