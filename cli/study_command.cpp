@@ -32,6 +32,13 @@ struct Options {
   CommonOptions common;
 };
 
+void print_subject(const KimSubjectResult& subject, Console& console) {
+  for (const KimOutcome& o : subject.outcomes)
+    console.line(fmt::format("{:<22} {:<15} {:>9} vertices {:>8.2f} s  mean {:.4f} %  RMS {:.4f} %  image RMS {:.2f} ({:.2f})",
+                             subject.name, to_string(o.method), grouped(o.vertices), o.seconds, o.mean, o.rms, o.image_rms,
+                             o.image_rms_views));
+}
+
 KimStudyOptions study_options(const Options& options, const OpenedDevice& device, Console& console) {
   KimStudyOptions result;
   if (options.subjects.quick) {
@@ -46,18 +53,8 @@ KimStudyOptions study_options(const Options& options, const OpenedDevice& device
   result.device = device.renderer.get();
   result.device_model = device.model;
   result.progress = [&console](const std::string& label, int done, int total) { console.progress(label, done, total); };
+  result.on_subject = [&console](const KimSubjectResult& subject) { print_subject(subject, console); };
   return result;
-}
-
-void print_outcome(const KimStudyResult& result, const StudyReport& report, Console& console) {
-  for (const KimSubjectResult& subject : result.subjects) {
-    for (const KimOutcome& o : subject.outcomes)
-      console.line(fmt::format("{:<22} {:<15} {:>9} vertices {:>8.2f} s  mean {:.4f} %  RMS {:.4f} %  image RMS {:.2f} ({:.2f})",
-                               subject.name, to_string(o.method), grouped(o.vertices), o.seconds, o.mean, o.rms, o.image_rms,
-                               o.image_rms_views));
-  }
-  for (const StudyClaim& claim : report.claims)
-    console.line(fmt::format("{:<6} {} {}", to_string(claim.verdict), claim.claim, claim.measured));
 }
 
 /// What to type to repeat it, paths by their last part.
@@ -84,7 +81,8 @@ int run(const Options& options) {
   raster::CpuRenderer exact;
   const KimStudyResult result = run_kim_study(subjects, exact, study_options(options, device, console));
   const StudyReport report = kim_report(result);
-  print_outcome(result, report, console);
+  for (const StudyClaim& claim : report.claims)
+    console.line(fmt::format("{:<6} {} {}", to_string(claim.verdict), claim.claim, claim.measured));
 
   RunInfo run_info = current_run(options.common.start);
   for (const KimSubject& subject : subjects)

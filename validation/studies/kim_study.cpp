@@ -272,7 +272,10 @@ KimStudyResult run_kim_study(const std::vector<KimSubject>& subjects, Renderer& 
     result.inputs.insert(result.inputs.end(), subject.inputs.begin(), subject.inputs.end());
   }
   Steps steps(options, total);
-  for (const KimSubject& subject : subjects) result.subjects.push_back(study_subject(subject, exact, options, steps));
+  for (const KimSubject& subject : subjects) {
+    result.subjects.push_back(study_subject(subject, exact, options, steps));
+    if (options.on_subject) options.on_subject(result.subjects.back());
+  }
   return result;
 }
 

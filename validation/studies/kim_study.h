@@ -40,6 +40,8 @@ enum class KimMethod : std::uint8_t { qem6, qem6_full, kim, qem };
 inline constexpr std::array kKimMethods{KimMethod::qem6, KimMethod::qem6_full, KimMethod::kim, KimMethod::qem};
 [[nodiscard]] const char* to_string(KimMethod method);
 
+struct KimSubjectResult;
+
 struct KimStudyOptions {
   int picture_px = 1024;  ///< side of the one view
   int views_px = 512;     ///< side of the 24 views
@@ -52,6 +54,7 @@ struct KimStudyOptions {
   DeviceModel device_model;
   /// Called before each step; may be empty. An exception stops the study.
   std::function<void(const std::string& label, int done, int total)> progress;
+  std::function<void(const KimSubjectResult&)> on_subject;  ///< called after each subject; may be empty
 };
 
 /// One method on one subject.
