@@ -25,7 +25,8 @@ constexpr const char* kStudyCss = R"(
 @media (max-width: 700px) { .row { grid-template-columns: 1fr; } .claim { grid-template-columns: 1fr; } }
 .drawing svg { width: 100%; height: auto; display: block; } .drawing text { font: 13px var(--sans); fill: var(--ink); }
 .drawing .faint { fill: var(--soft); } .drawing .axis { stroke: var(--soft); stroke-width: 1; } .drawing .grid { stroke: var(--line); stroke-width: 1; }
-td.again { color: var(--soft); opacity: .45; } tr.first:not(:first-child) > td { border-top: 2px solid var(--line); } details.folded { border: 0; margin: 0; padding: 0; }
+td.again { color: var(--soft); opacity: .45; } tr.first:not(:first-child) > td { border-top: 2px solid var(--line); } .table td:nth-child(2) { white-space: nowrap; } table.wide th, table.wide td { padding-left: 8px; padding-right: 8px; } table.wide thead th { white-space: normal; vertical-align: bottom; }
+details.folded { border: 0; margin: 0; padding: 0; }
 h3[id] { margin-top: 34px; } nav { display: flex; flex-wrap: wrap; gap: 6px 16px; margin: 14px 0 0; font-size: 14px; }
 )";
 
@@ -41,7 +42,7 @@ std::string claim_item(const StudyClaim& claim) {
 std::string table_html(const StudyTable& table) {
   std::string html = fmt::format("<h3 id=\"{}\">{}</h3><p class=\"soft\">{}</p>", table.name, escaped(table.title), escaped(table.note));
   if (table.folded) html += fmt::format("<details class=\"folded\"><summary>{} rows</summary>", table.rows.size());
-  html += "<div class=\"table\"><table><thead><tr>";
+  html += fmt::format("<div class=\"table\"><table{}><thead><tr>", table.columns.size() > 8 ? " class=\"wide\"" : "");
   // A column of numbers, or of none at all, is set flush right with its head.
   std::vector<bool> numeric(table.columns.size(), true);
   for (const auto& row : table.rows)

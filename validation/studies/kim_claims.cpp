@@ -22,11 +22,14 @@ double ratio(const KimSubjectResult& subject, Value value, KimMethod base) {
   return below > 0 ? value(subject.of(KimMethod::kim)) / below : 1;
 }
 
-/// "monkey 0.87, duck 1.10".
+/// "monkey 0.87, duck 1.10"; a small one with its first digit.
 std::string ratios_text(const KimStudyResult& result, Value value, KimMethod base) {
   std::string text;
-  for (const KimSubjectResult& subject : result.subjects)
-    text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", subject.name, ratio(subject, value, base));
+  for (const KimSubjectResult& subject : result.subjects) {
+    const double r = ratio(subject, value, base);
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", subject.name, r < 0.0095 ? fmt::format("{:.1g}", r) : fmt::format("{:.2f}", r));
+  }
   return text;
 }
 

@@ -62,6 +62,11 @@ TEST_CASE("claims that hold say so and need no reason") {
   CHECK(claim_of(claims, "The mean").measured == "kim/qem6, half-edge: a 0.90, b 0.50; full-edge: a 0.90, b 0.50.");
 }
 
+TEST_CASE("a ratio near 0 is not rounded to 0") {
+  const auto claims = kim_claims(result_of({subject("flat", 0.0004, 1.2, 1.6)}));
+  CHECK(claim_of(claims, "The mean").measured == "kim/qem6, half-edge: flat 0.0004; full-edge: flat 0.0004.");
+}
+
 TEST_CASE("claims that fail, for one subject or for all, say where and why") {
   std::vector<KimSubjectResult> subjects{subject("a", 1.3, 0.7, 0.9), subject("b", 0.5, 1.1, 1.7)};
   subjects[0].sweep = {{1e-5, 0.8, 0.8, 1.5}, {1e-4, 1.3, 1.3, 0.7}};
