@@ -59,6 +59,9 @@ class ProgressiveMesh {
   [[nodiscard]] std::size_t face_count_at(std::size_t level) const;
   [[nodiscard]] std::size_t vertex_count() const { return data_.base_vertices + level_; }
 
+  /// The wedges of face f (by appearance; f < face_count()) at the current level.
+  [[nodiscard]] const std::array<std::uint32_t, 3>& face_wedges(std::size_t f) const { return faces_[f]; }
+
   void go_to(std::size_t level);
   /// The finest level of at most `faces` faces; the base where there is none.
   void go_to_faces(std::size_t faces);

@@ -1,0 +1,126 @@
+#include "core/adapt/split_cells.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/error.h"
+#include "core/mesh/exact_orientation.h"
+
+namespace etalon::adapt {
+namespace {
+
+using progressive::kNone;
+using progressive::ProgressiveMesh;
+
+// A triangle (u, a, b) around u, by wedges.
+struct Spoke {
+  std::uint32_t u, a, b;
+};
+
+// The triangles of one side in order, counter-clockwise in the mesh, from the one that begins at `first_wedge` where they close.
+std::vector<Spoke> in_order(std::vector<Spoke> spokes, std::uint32_t first_wedge, bool& closed) {
+  const auto followed = [&](std::uint32_t wedge) {
+    return std::find_if(spokes.begin(), spokes.end(), [&](const Spoke& s) { return s.a == wedge; });
+  };
+  // Open: one triangle begins where none ends.
+  auto start = std::find_if(spokes.begin(), spokes.end(), [&](const Spoke& s) {
+    return std::none_of(spokes.begin(), spokes.end(), [&](const Spoke& other) { return other.b == s.a; });
+  });
+  closed = start == spokes.end();
+  std::vector<Spoke> ordered;
+  for (auto at = closed ? followed(first_wedge) : start; at != spokes.end();) {
+    const std::uint32_t next = at->b;
+    ordered.push_back(*at);
+    spokes.erase(at);
+    at = followed(next);
+  }
+  return spokes.empty() ? ordered : std::vector<Spoke>{};
+}
+
+class SplitRing {
+ public:
+  SplitRing(const ProgressiveMesh& mesh, std::size_t split)
+      : mesh_(mesh), data_(mesh.data()), split_(data_.splits[split]), number_(split) {}
+
+  [[nodiscard]] std::vector<ChartCells> cells() const {
+    std::vector<Spoke> sides[2];
+    for (std::uint32_t c = split_.first_corner; c < split_.end_corner; ++c)
+      sides[c < split_.right_corner ? 0 : 1].push_back(spoke(data_.corners[c] >> 2, data_.corners[c] & 3));
+    const auto end_face = static_cast<std::uint32_t>(mesh_.face_count_at(number_ + 1));
+    for (std::uint32_t f = split_.first_face; f < end_face; ++f) add_new_face(f, sides);
+    std::vector<ChartCells> result;
+    for (const std::vector<Spoke>& side : sides)
+      if (!side.empty()) result.push_back(cells_of(side));
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t vertex(std::uint32_t wedge) const { return data_.wedges[wedge].vertex.index; }
+
+  [[nodiscard]] Spoke spoke(std::uint32_t face, std::uint32_t corner) const {
+    const auto& wedges = mesh_.face_wedges(face);
+    return {wedges[corner], wedges[(corner + 1) % 3], wedges[(corner + 2) % 3]};
+  }
+
+  // A face on the edge u–v: the one where v follows u is on the left. The right one is a side of its own where u is on a curve; where it has
+  // u's wedge of the left side and nothing else is on the right, u is interior (or nothing but the curve's name parts the two).
+  void add_new_face(std::uint32_t face, std::vector<Spoke> (&sides)[2]) const {
+    const std::uint32_t u = data_.base_vertices + static_cast<std::uint32_t>(number_);
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      const Spoke s = spoke(face, corner);
+      if (vertex(s.u) != u) continue;
+      const bool left = vertex(s.a) == split_.parent, one_side = sides[1].empty() && s.u == split_.wedge[0];
+      sides[left || one_side ? 0 : 1].push_back(s);
+    }
+  }
+
+  [[nodiscard]] ChartCells cells_of(const std::vector<Spoke>& side) const {
+    const auto of_parent = std::find_if(side.begin(), side.end(), [&](const Spoke& s) { return vertex(s.a) == split_.parent; });
+    bool closed = false;
+    const std::vector<Spoke> spokes = in_order(side, of_parent != side.end() ? of_parent->a : kNone, closed);
+    ETALON_CHECK(!spokes.empty(), fmt::format("split {}: the triangles around its vertex make no fan", number_));
+    std::vector<std::uint32_t> wedges;
+    for (const Spoke& s : spokes) wedges.push_back(s.a);
+    if (!closed) wedges.push_back(spokes.back().b);
+
+    int turned = 0;
+    for (const Spoke& s : spokes) turned += orientation(uv(s.u), uv(s.a), uv(s.b));
+    bool reflected = turned < 0;
+    if (!closed && vertex(wedges.front()) != split_.parent) {  // the right side of a curve leads to v
+      std::reverse(wedges.begin(), wedges.end());
+      reflected = !reflected;
+    }
+    ETALON_CHECK(vertex(wedges.front()) == split_.parent, fmt::format("split {}: its parent is not beside its vertex", number_));
+    CollapseRing ring;
+    const auto place = [&](std::uint32_t wedge) { return reflected ? Vec2f{uv(wedge).x, -uv(wedge).y} : uv(wedge); };
+    ring.on_curve = !closed;
+    ring.uv_of_u = place(spokes.front().u), ring.position_of_u = data_.positions[vertex(spokes.front().u)];
+    for (const std::uint32_t wedge : wedges) ring.uv.push_back(place(wedge)), ring.positions.push_back(data_.positions[vertex(wedge)]);
+    if (ring.on_curve && ring.size() == 2) return {CellStatus::gone, {}};
+    if (ring.size() < 3 || !is_unfolded(ring)) return {CellStatus::fold, {}};
+    auto cells = make_ring_cells(ring);
+    if (!cells) return {CellStatus::no_place, {}};
+    if (reflected)
+      for (CellNode& node : cells->nodes) node.before.y = -node.before.y, node.after.y = -node.after.y;
+    return {CellStatus::made, std::move(*cells)};
+  }
+
+  [[nodiscard]] const Vec2f& uv(std::uint32_t wedge) const { return data_.wedges[wedge].uv; }
+
+  const ProgressiveMesh& mesh_;
+  const progressive::ProgressiveData& data_;
+  const progressive::VertexSplit& split_;
+  std::size_t number_;
+};
+
+}  // namespace
+
+std::vector<ChartCells> cells_of_split(const ProgressiveMesh& mesh, std::size_t split) {
+  ETALON_CHECK(split < mesh.split_count() && mesh.level() == split + 1,
+               fmt::format("cells of split {} of {}: the mesh is at level {}", split, mesh.split_count(), mesh.level()));
+  ETALON_CHECK(mesh.data().has_uv, "cells of a mesh without texture coordinates");
+  return SplitRing(mesh, split).cells();
+}
+
+}  // namespace etalon::adapt
