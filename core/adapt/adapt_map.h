@@ -1,0 +1,38 @@
+// Adapting a map (a texture or an indexing map) from level to level by drawing cells [Chen & Chuang 2006, sec. 3.3, 3.4].
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "core/adapt/adapt_sequence.h"
+#include "core/draw/renderer.h"
+#include "core/draw/state.h"
+
+namespace etalon::adapt {
+
+/// The map that names every texel's own centre, ((x + ½)/width, (y + ½)/height), as two float32 (sec. 3.4).
+[[nodiscard]] Image identity_map(int width, int height);
+
+struct AdaptOptions {
+  Filter filter = Filter::linear;  ///< of the lookups in the map before
+  /// Called after each pack with packs done and in all; an exception stops the work and leaves `map` between levels.
+  std::function<void(std::size_t done, std::size_t total)> progress;
+};
+
+struct AdaptCounts {
+  std::size_t adaptations = 0, packs = 0;
+  std::size_t texels = 0;  ///< written
+};
+
+/// The cells of `splits` (disjoint regions, see pack_splits) as one drawing from the map as it is: corners on the sub-texel grid of `state`,
+/// their coordinates in the map before.
+[[nodiscard]] DrawList cell_list(const AdaptSequence& sequence, std::span<const std::uint32_t> splits, AdaptDirection direction,
+                                 std::shared_ptr<const Image> map, Filter filter, const RasterState& state);
+
+/// Takes the map from level `from` to level `to`, down or up. A texel changes where a cell covers its centre; one that no cell covers keeps its
+/// value. UnavailableError where the renderer does not support the map's format.
+AdaptCounts adapt_map(Renderer& renderer, const AdaptSequence& sequence, std::size_t from, std::size_t to, Image& map,
+                      const AdaptOptions& options = {});
+
+}  // namespace etalon::adapt

@@ -1,0 +1,40 @@
+// The cells of all splits of a progressive mesh, and the order in which a map goes through them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/adapt/cell_map.h"
+#include "core/adapt/split_cells.h"
+
+namespace etalon::adapt {
+
+class AdaptSequence {
+ public:
+  /// Goes once from the finest level to the base. The mesh needs texture coordinates (InputError) and is left at its base. `progress` hears of
+  /// splits done and in all about every 1,000; an exception of it stops the work.
+  explicit AdaptSequence(progressive::ProgressiveMesh& mesh, const std::function<void(std::size_t, std::size_t)>& progress = {});
+
+  [[nodiscard]] std::size_t size() const { return splits_.size(); }
+  /// Of split n, which leads from level n to level n + 1.
+  [[nodiscard]] const std::vector<ChartCells>& split(std::size_t n) const { return splits_[n]; }
+
+  /// Where texture coordinate p of level `from` lies at level `to`: through the cells of all splits between, without resampling. The exact
+  /// limit of what adapting maps can give.
+  [[nodiscard]] Vec2d follow(Vec2d p, std::size_t from, std::size_t to) const;
+
+ private:
+  std::vector<std::vector<ChartCells>> splits_;
+};
+
+/// The splits between two levels in the order of work (downward from the finer, upward from the coarser), in packs whose regions do not touch:
+/// all of a pack can be adapted at once and give what one by one gives. A split joins a pack only if its region overlaps neither one in the
+/// pack nor one passed over before it: the paper's rule (sec. 4) forgets the latter and lets regions overtake others that they depend on.
+/// Regions are the texels, of a map of width × height, of the cells' bounding box in both textures and `reach` texels around: what a lookup
+/// there may read or write. Splits without cells are in no pack.
+[[nodiscard]] std::vector<std::vector<std::uint32_t>> pack_splits(const AdaptSequence& sequence, std::size_t from, std::size_t to,
+                                                                  int width, int height, int reach = 1);
+
+}  // namespace etalon::adapt
