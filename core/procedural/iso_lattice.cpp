@@ -19,7 +19,7 @@ struct Point {
   std::int64_t x, y, z;
 };
 
-using EdgeKey = std::uint64_t;  // lower end (21 bits a coordinate would not do: see key_of), direction
+using EdgeKey = std::uint64_t;  // 8·(number of the lower end) + way: below 2^54, since a side has at most 2·50,000 + 32 half cubes
 
 class Marcher {
  public:

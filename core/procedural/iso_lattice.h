@@ -24,9 +24,10 @@ struct IsoLattice {
   double spacing = 0.1;            ///< side of a lattice cube; about 6.46/spacing² vertices a unit of area
 };
 
-/// Only cubes that the surface passes are visited, eight to a side at once: time and memory go with the area. Vertices lie on lattice edges
-/// where the field is 0 on the chord (regula falsi, then halving), ordered by lattice point; faces follow their lattice cube. Equal bytes
-/// for any thread count. InputError where the box would hold more than 2^31 lattice points a side, or no surface is met.
+/// Only blocks of cubes that the surface passes are visited: time and memory go with the area. Vertices lie on lattice edges where the field is
+/// 0 to first order (three safeguarded steps of regula falsi), ordered by lattice point; faces follow their lattice cube. Equal bytes for any
+/// thread count. InputError where the box is empty, holds more than 50,000 cubes a side or 2^31 blocks, is left by the surface, or no
+/// surface is met.
 [[nodiscard]] IsoTriangles march_lattice(const IsoLattice& lattice);
 
 }  // namespace etalon::procedural

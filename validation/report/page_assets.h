@@ -1,4 +1,4 @@
-// The style sheet and the script of the page, embedded from page.css and page.js when etalon is built.
+// The style sheets and the script of the pages, embedded from page.css, study.css and page.js when etalon is built.
 #pragma once
 
 #include <string>
@@ -7,5 +7,6 @@ namespace etalon::validation {
 
 extern const std::string kPageCss;
 extern const std::string kPageJs;
+extern const std::string kStudyCss;  ///< beyond kPageCss
 
 }  // namespace etalon::validation

@@ -10,26 +10,6 @@ namespace etalon::validation {
 
 namespace {
 
-// What the page of a study needs beyond page.css.
-constexpr const char* kStudyCss = R"(
-.claims { display: grid; gap: 14px; margin: 22px 0 10px; }
-.claim { display: grid; grid-template-columns: 92px 1fr; gap: 4px 20px; background: var(--card); border: 1px solid var(--line); border-left-width: 5px; border-radius: 12px; padding: 16px 20px; }
-.claim .verdict-word { font: 600 19px/1.3 var(--serif); grid-row: span 3; } .claim p { margin: 2px 0; max-width: 100ch; }
-.claim.holds { border-left-color: var(--good); } .claim.holds .verdict-word { color: var(--good); }
-.claim.partly { border-left-color: var(--warn); } .claim.partly .verdict-word { color: var(--warn); }
-.claim.fails { border-left-color: var(--bad); } .claim.fails .verdict-word { color: var(--bad); }
-.claim .where { color: var(--soft); font-size: 13px; } .claim .why { color: var(--soft); }
-.row { display: grid; grid-template-columns: repeat(var(--columns), minmax(0, 1fr)); gap: 14px; margin-top: 14px; }
-.row img { width: 100%; height: auto; display: block; border-radius: 8px; border: 1px solid var(--line); background: var(--well); }
-.row img.legend { border: 0; background: none; image-rendering: pixelated; }
-@media (max-width: 700px) { .row { grid-template-columns: 1fr; } .claim { grid-template-columns: 1fr; } }
-.drawing svg { width: 100%; height: auto; display: block; } .drawing text { font: 13px var(--sans); fill: var(--ink); }
-.drawing .faint { fill: var(--soft); } .drawing .axis { stroke: var(--soft); stroke-width: 1; } .drawing .grid { stroke: var(--line); stroke-width: 1; }
-td.again { color: var(--soft); opacity: .45; } tr.first:not(:first-child) > td { border-top: 2px solid var(--line); } .table td:nth-child(2) { white-space: nowrap; } table.wide th, table.wide td { padding-left: 8px; padding-right: 8px; } table.wide thead th { white-space: normal; vertical-align: bottom; }
-details.folded { border: 0; margin: 0; padding: 0; }
-h3[id] { margin-top: 34px; } nav { display: flex; flex-wrap: wrap; gap: 6px 16px; margin: 14px 0 0; font-size: 14px; }
-)";
-
 std::string claim_item(const StudyClaim& claim) {
   std::string html = fmt::format(
       "<article class=\"claim {0}\"><span class=\"verdict-word\">{0}</span><p>{1} <span "

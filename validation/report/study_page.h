@@ -23,8 +23,8 @@ namespace etalon::validation {
 /// The names of the files that write_study would write into its folder, index.html last.
 [[nodiscard]] std::vector<std::string> study_files(const StudyReport& report);
 
-/// `command`: what to type to repeat it (study_markdown.h). Writes all of them (the folder is made where it does not exist): all are complete on the disk before the first takes its place. Returns the
-/// path of index.html. WriteError.
+/// Writes all of them (the folder is made where it does not exist): all are complete on the disk before the first takes its place. `command`:
+/// what to type to repeat it (study_markdown.h). Returns the path of index.html. WriteError.
 std::filesystem::path write_study(const std::filesystem::path& folder, const StudyReport& report, const RunInfo& run,
                                   const std::string& command);
 

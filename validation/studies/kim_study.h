@@ -103,7 +103,8 @@ struct KimStudyResult {
   [[nodiscard]] std::uint64_t unexplained() const;  ///< texels of both renderers that no class explains
 };
 
-/// InputError where a subject has no colours, or a reduction is not in (0, 1). Everything but the seconds is the same bytes for any number of threads.
+/// InputError where a subject has no colours, or a reduction is not in (0, 1). Everything but the seconds is the same bytes for any number of
+/// threads.
 [[nodiscard]] KimStudyResult run_kim_study(const std::vector<KimSubject>& subjects, Renderer& exact, const KimStudyOptions& options);
 
 /// The face count at which a simplification with `options` has `vertices` vertices left: simplification stops by faces, the paper counts
