@@ -2,6 +2,7 @@
 // [Cohen, Olano & Manocha 1998, Appearance-Preserving Simplification, sec. 5: texture deviation].
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/simplify/collapse_candidate.h"
@@ -27,7 +28,10 @@ class ApsMetric {
   [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v, std::uint32_t h);
   /// The largest bound of a face of u: not above the cost.
   [[nodiscard]] double bound(std::uint32_t u, std::uint32_t v) const;
-  void prepare(std::uint32_t) {}
+  void bounds(std::uint32_t u, std::span<CollapseCandidate> candidates) const {
+    const double same = bound(u, u);
+    for (CollapseCandidate& candidate : candidates) candidate.cost = same;
+  }
   [[nodiscard]] double cost_of_bounded(std::uint32_t u, const CollapseCandidate& candidate) {
     return cost(u, candidate.target, candidate.half_edge);
   }

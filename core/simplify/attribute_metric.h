@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "core/simplify/collapse_candidate.h"
 #include "core/simplify/curve_planes.h"
 #include "core/simplify/moved_vertex.h"
 #include "core/simplify/placement.h"
@@ -61,6 +62,9 @@ class AttributeMetric {
     for (const auto& [from, to] : sides(u, v, h)) sum += evaluate(quadrics_[from], step(u, from, v, to));
     return sum > 0 ? sum : 0;
   }
+  void costs(std::uint32_t u, std::span<CollapseCandidate> candidates) const {
+    for (CollapseCandidate& candidate : candidates) candidate.cost = cost(u, candidate.target, candidate.half_edge);
+  }
   /// A cost as a squared length in the unit cube's space of positions and attributes.
   [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v, double cost) const {
     double weight = 0;
@@ -68,9 +72,13 @@ class AttributeMetric {
     for_each_node(v, [&](std::uint32_t node) { weight += total_weight(quadrics_[node]); });
     return weight > 0 ? cost / weight : 0;
   }
+  /// The sides of v take over those of u; no node's own error falls, whatever the rounding of a sum that is about 0.
   void collapse(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) {
-    for (const auto& [from, to] : sides(u, v, edge.left != kNone ? edge.left : edge.right))
+    for (const auto& [from, to] : sides(u, v, edge.left != kNone ? edge.left : edge.right)) {
+      const float own = constant(quadrics_[to]);
       quadrics_[to] = rounded(moved_sum(quadrics_[to], quadrics_[from], step(u, from, v, to)));
+      constant(quadrics_[to]) = std::max(constant(quadrics_[to]), own);
+    }
   }
 
   [[nodiscard]] Placement place(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) const {
@@ -164,10 +172,12 @@ class AttributeMetric {
 
   [[nodiscard]] double own_cost(std::uint32_t v) const {
     double sum = 0;
-    for_each_node(v, [&](std::uint32_t node) { sum += space_of(quadrics_[node]); });
+    for_each_node(v, [&](std::uint32_t node) { sum += constant(quadrics_[node]); });
     return sum;
   }
-  static double space_of(const Stored& q) {
+  // What a node costs where it is.
+  template <class Q>
+  static auto& constant(Q& q) {
     if constexpr (requires { q.space; })
       return q.space.c;
     else

@@ -11,10 +11,10 @@
 
 namespace etalon::simplify {
 
-/// Metric: double cost(u, v, half-edge between them) (never NaN, ≥ 0), of the states of u and v and the faces of u; collapse(u, v, edge), the state
-/// of v after u went into it, called before the faces change; and kCostsAreLocal: whether a cost leaves the other faces of u out, so
+/// Metric: double cost(u, v, half-edge between them) (never NaN, ≥ 0), of the states of u and v and the faces of u; costs(u, candidates), of all; collapse(u, v, edge), the state
+/// of v after u went into it, called before the faces change, by which no cost of a way to v falls; and kCostsAreLocal: whether a cost leaves the other faces of u out, so
 /// that a vertex that loses a neighbour keeps its other costs. Where costs are dear it may have bounds as well: bound(u, v), never above the cost as
-/// computed; kBoundsAreLocal, likewise; prepare(u), before several cost_of_bounded(u, candidate with its bound for a cost), the bits of cost(u, v, …).
+/// computed; kBoundsAreLocal, likewise; bounds(u, candidates), of all; and then cost_of_bounded(u, candidate with its bound for a cost), the bits of cost(u, v, …).
 ///
 /// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged then; a
 /// refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of the
@@ -69,11 +69,11 @@ class CollapseLoop {
     metric_.collapse(step.u, step.v, step.edge);
     mesh_.collapse(step.u, step.edge);
     requeue(entry_of(step.v));
-    // What was near u is near v now. Vertices that lost u as a neighbour: their faces changed. The others only see v's new cost.
+    // What was near u is near v now. Vertices that lost u as a neighbour: their faces changed. The others only see v dearer.
     mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t h) {
       for (const std::uint32_t n : near_)
         if (n == w) return refresh(w, h, step);
-      see_new_cost(w, step.v, h);
+      see_dearer_cost(w, step.v);
     });
   }
 
@@ -103,26 +103,30 @@ class CollapseLoop {
     });
   }
 
-  // The least candidate behind (cost, target).
-  [[nodiscard]] QueuedCollapse least_behind(std::uint32_t u, double cost, std::uint32_t target) {
+  void gather(std::uint32_t u) {
     candidates_.clear();
     for_each_candidate(u, [&](std::uint32_t v, std::uint32_t h) { candidates_.push_back({v, h}); });
+  }
+
+  // The least candidate behind (cost, target).
+  [[nodiscard]] QueuedCollapse least_behind(std::uint32_t u, double cost, std::uint32_t target) {
+    gather(u);
     QueuedCollapse best{std::numeric_limits<double>::infinity(), u, kNone};
     const auto consider = [&](double here, std::uint32_t v) {
       if (before(cost, target, here, v) && before(here, v, best.cost, best.target)) best = {here, u, v};
     };
     if constexpr (kHasBounds) {
+      metric_.bounds(u, candidates_);
       // By rising bounds: once a bound is above the best cost, so are all costs behind it.
-      metric_.prepare(u);
-      for (CollapseCandidate& candidate : candidates_) candidate.cost = metric_.bound(u, candidate.target);
-      std::sort(candidates_.begin(), candidates_.end(),
-                [](const CollapseCandidate& a, const CollapseCandidate& b) { return before(a.cost, a.target, b.cost, b.target); });
-      for (const CollapseCandidate& candidate : candidates_) {
-        if (candidate.cost > best.cost) break;
-        consider(metric_.cost_of_bounded(u, candidate), candidate.target);
+      for (auto next = candidates_.begin(); next != candidates_.end(); ++next) {
+        for (auto other = next + 1; other != candidates_.end(); ++other)
+          if (other->cost < next->cost) std::swap(*next, *other);
+        if (next->cost > best.cost) break;
+        consider(metric_.cost_of_bounded(u, *next), next->target);
       }
     } else {
-      for (const auto& [v, h, unused] : candidates_) consider(metric_.cost(u, v, h), v);
+      metric_.costs(u, candidates_);
+      for (const auto& [v, h, here] : candidates_) consider(here, v);
     }
     return best;
   }
@@ -158,7 +162,9 @@ class CollapseLoop {
     if constexpr (kHasBounds) {
       refused_[w] = false;
       QueuedCollapse entry{std::numeric_limits<double>::infinity(), w, kNone};
-      for_each_candidate(w, [&](std::uint32_t v, std::uint32_t) { entry = {std::min(entry.cost, metric_.bound(w, v)), w, kUnpriced}; });
+      gather(w);
+      metric_.bounds(w, candidates_);
+      for (const CollapseCandidate& candidate : candidates_) entry = {std::min(entry.cost, candidate.cost), w, kUnpriced};
       return entry;
     } else {
       return best_of(w);
@@ -184,14 +190,9 @@ class CollapseLoop {
     requeue(entry_of(w));
   }
 
-  void see_new_cost(std::uint32_t w, std::uint32_t v, std::uint32_t h) {
-    const VertexKind kind = mesh_.kind(w);
-    if (kind == VertexKind::locked || (kind == VertexKind::curve && !mesh_.on_curve(h))) return;
-    if (!refused_[w] && queue_.contains(w)) {
-      const QueuedCollapse& entry = queue_.of(w);
-      if (entry.target != v) return see_cost(w, v, h, entry);
-    }
-    requeue(entry_of(w));
+  // v's state changed, w's faces did not: the way to v has become dearer or stayed, so only an entry that is that way is not the least any more.
+  void see_dearer_cost(std::uint32_t w, std::uint32_t v) {
+    if (queue_.contains(w) && queue_.of(w).target == v) requeue(entry_of(w));
   }
 
   CollapseMesh& mesh_;

@@ -2,6 +2,8 @@
 // [Kim, Choi & Lee 2008, sec. 4].
 #pragma once
 
+#include <span>
+
 #include "core/simplify/collapse_candidate.h"
 #include "core/simplify/qem_metric.h"
 
@@ -30,8 +32,13 @@ class KimMetric {
   [[nodiscard]] double bound(std::uint32_t u, std::uint32_t v) const {
     return (1 + qem_.cost(u, v) * length4_) * (1 + static_cast<double>(importance_[u]));
   }
-  /// For several candidates in a row of one vertex, none of its neighbours having changed since prepare(u).
-  void prepare(std::uint32_t) { loaded_ = kNone; }
+  void bounds(std::uint32_t u, std::span<CollapseCandidate> candidates) {
+    loaded_ = kNone;
+    qem_.costs(u, candidates);
+    const double importance = 1 + static_cast<double>(importance_[u]);
+    for (CollapseCandidate& candidate : candidates) candidate.cost = (1 + candidate.cost * length4_) * importance;
+  }
+  /// After bounds(u, …), nothing having changed.
   [[nodiscard]] double cost_of_bounded(std::uint32_t u, const CollapseCandidate& candidate);
   /// Of the quadrics alone.
   [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v, double) const {

@@ -3,7 +3,8 @@
 namespace etalon::simplify {
 
 QemMetric::QemMetric(const CollapseMesh& mesh, const UnitPositions& positions, const QemOptions& options) : places_(positions.at) {
-  quadrics_.resize(mesh.vertex_capacity());
+  shapes_.resize(mesh.vertex_capacity());
+  constants_.resize(mesh.vertex_capacity());
   for (std::uint32_t u = 0; u < mesh.vertex_capacity(); ++u) {
     if (!mesh.vertex_alive(u)) continue;
     Quadric3<double> q;
@@ -14,7 +15,7 @@ QemMetric::QemMetric(const CollapseMesh& mesh, const UnitPositions& positions, c
       if (doubled_area > 0) add({n.x / doubled_area, n.y / doubled_area, n.z / doubled_area}, 0.5 * doubled_area);
       for_each_curve_plane(mesh, h, sides, options, add);
     });
-    quadrics_[u] = rounded(q);
+    store(u, q);
   }
 }
 
