@@ -47,9 +47,10 @@ std::string way_table(const Json& scene) {
       continue;
     }
     const Json& seconds = way.at("seconds");
-    table += fmt::format("| {} | {} | {:.3f} ({:.3f}–{:.3f}) | {:.0f} | {:.4f} | {:.4f} | {} |\n", title,
-                         grouped(way.at("faces").get<std::uint64_t>()), seconds.at("median").get<double>(),
-                         seconds.at("lower").get<double>(), seconds.at("upper").get<double>(), way.at("peak_bytes").get<double>() / 1e6,
+    const double lower = seconds.at("lower"), upper = seconds.at("upper");
+    const std::string spread = lower < upper ? fmt::format(" ({:.3f}–{:.3f})", lower, upper) : "";
+    table += fmt::format("| {} | {} | {:.3f}{} | {:.0f} | {:.4f} | {:.4f} | {} |\n", title, grouped(way.at("faces").get<std::uint64_t>()),
+                         seconds.at("median").get<double>(), spread, way.at("peak_bytes").get<double>() / 1e6,
                          100 * way.at("rms_of_diagonal").get<double>(), 100 * way.at("mean_of_diagonal").get<double>(),
                          way.at("colour_rms").is_null() ? "" : fmt::format("{:.4f}", way.at("colour_rms").get<double>()));
   }
@@ -60,17 +61,18 @@ std::string way_table(const Json& scene) {
 double per_face_and_digit(double seconds, double faces) { return 1e9 * seconds / (faces * std::log2(faces)); }
 
 std::string growth_table(const Json& scenes) {
+  // The first scene has every way.
   std::string table, head = "| faces |", line = "|---|";
   for (const Json& scene : scenes) {
     if (!is_growth(scene)) continue;
     const double faces = scene.at("faces_in");
-    table += fmt::format("| {} |", grouped(scene.at("faces_in").get<std::uint64_t>()));
-    for (const Json& way : scene.at("ways")) {
-      const std::string title = way.at("title");
-      if (head.find(title) == std::string::npos) {
-        head += fmt::format(" {}: s | ns ÷ (n·log₂ n) |", title);
+    if (table.empty())
+      for (const Json& way : scene.at("ways")) {
+        head += fmt::format(" {}: s | ns ÷ (n·log₂ n) |", way.at("title").get<std::string>());
         line += "---|---|";
       }
+    table += fmt::format("| {} |", grouped(scene.at("faces_in").get<std::uint64_t>()));
+    for (const Json& way : scene.at("ways")) {
       const double seconds = way.at("seconds").at("median");
       table += fmt::format(" {:.3f} | {:.1f} |", seconds, per_face_and_digit(seconds, faces));
     }
