@@ -13,6 +13,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "cli/adapt_command.h"
 #include "cli/console.h"
 #include "cli/exit_code.h"
 #include "cli/info_command.h"
@@ -38,7 +39,8 @@ using namespace etalon::cli;
 // CLI11 would call an unknown verb a stray argument; say what was meant instead.
 void require_known_verb(int argc, char** argv, const std::vector<Verb>& verbs) {
   if (argc < 2)
-    throw UsageError("expected a verb: verify, render, info, make, simplify, progressive, metro, study or selftest (see etalon --help)");
+    throw UsageError(
+        "expected a verb: verify, render, info, make, simplify, progressive, adapt, metro, study or selftest (see etalon --help)");
   const std::string typed = argv[1];
   if (typed.empty() || typed.front() == '-') return;
   std::vector<std::string> names;
@@ -63,8 +65,8 @@ int run(int argc, char** argv) {
   root.footer(
       "Examples:\n  etalon verify\n  etalon verify spot.obj --report spot-report\n  etalon render head.glb -o head.png\n"
       "Exit codes: 0 done, 1 warning, 2 check failed, 3 sizes differ, 4 bad input or write error, 64 usage, 130 interrupted.");
-  const std::vector<Verb> verbs{add_verify(root),      add_render(root), add_info(root),  add_make(root),    add_simplify(root),
-                                add_progressive(root), add_metro(root),  add_study(root), add_selftest(root)};
+  const std::vector<Verb> verbs{add_verify(root),      add_render(root), add_info(root),  add_make(root),  add_simplify(root),
+                                add_progressive(root), add_adapt(root),  add_metro(root), add_study(root), add_selftest(root)};
   require_known_verb(argc, argv, verbs);
   try {
     root.parse(argc, argv);

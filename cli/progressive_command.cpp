@@ -73,7 +73,7 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   const Mesh mesh = welded_by_position(model.mesh);
   progressive::ProgressiveResult made = naming_the_model(options.input, [&] {
     simplify::SimplifyOptions how;
-    if (options.metric == "kim") how.metric = simplify::MetricName::kim;
+    how.metric = simplify::metric_named(options.metric);
     how.target_faces = static_cast<std::size_t>(options.faces);
     how.progress = [&](std::size_t done, std::size_t total) {
       console.progress("faces removed", static_cast<int>(done), static_cast<int>(total));
@@ -159,9 +159,9 @@ Verb add_progressive(CLI::App& root) {
                            ->type_name("N")
                            ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 32));
   app->add_option("--metric", options->metric,
-                  "Error metric: qem, the quadric of Garland & Heckbert (default); kim, that of Kim, Choi & Lee for vertex colours")
-      ->type_name("qem|kim")
-      ->check(CLI::IsMember({"qem", "kim"}));
+                  "Error metric, as of simplify: qem (default); qem5 and aps mind texture coordinates; qem6, hoppe and kim vertex colours")
+      ->type_name("METRIC")
+      ->check(CLI::IsMember({"qem", "qem5", "qem6", "hoppe", "kim", "aps"}));
   app->add_option("-o,--output", options->output, "Progressive mesh (.epm), or the level's model (.obj .ply .glb; without materials)")
       ->required()
       ->type_name("OUT")

@@ -1,0 +1,74 @@
+// etalon adapt: files, documents, exit codes.
+#include <doctest/doctest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/run_command.h"
+#include "tests/cli/schema_validator.h"
+
+using namespace etalon::test;
+using nlohmann::json;
+
+namespace {
+
+void make_swirl(const ScratchFolder& folder) {
+  REQUIRE(
+      run_etalon({"make", "swirl", "--faces", "1800", "--texture-size", "128", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code ==
+      0);
+  REQUIRE(run_etalon({"progressive", "swirl.obj", "--metric", "qem5", "--faces", "200", "-o", "swirl.epm"}, {.folder = folder.path()})
+              .exit_code == 0);
+}
+
+void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions) {
+  const std::vector<std::string> before = folder.listing();
+  const CommandResult result = run_etalon(arguments, {.folder = folder.path()});
+  CAPTURE(result.err);
+  CHECK(result.exit_code == exit_code);
+  REQUIRE(result.error_lines().size() == 1);
+  CHECK(result.error_lines()[0].find(mentions) != std::string::npos);
+  CHECK(folder.listing() == before);
+}
+
+}  // namespace
+
+TEST_CASE("adapt: a level with its texture and its map; the same bytes for 1 and 7 threads") {
+  const ScratchFolder folder;
+  make_swirl(folder);
+  std::string texture, map;
+  for (const char* threads : {"1", "7"}) {
+    const CommandResult result = run_etalon({"adapt", "swirl.epm", "--faces", "300", "--texture", "swirl_texture.png", "-o", "level.obj",
+                                             "--map", "level.exr", "--size", "256", "--threads", threads, "--json", "-"},
+                                            {.folder = folder.path()});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    const json document = json::parse(result.out);
+    for (const std::string& violation : schema_violations(json::parse(read_text(std::string(ETALON_SCHEMAS) + "/adapt.json")), document))
+      FAIL_CHECK(violation);
+    CHECK(document["faces"] <= 300);
+    CHECK(document["adaptations"] > 600);
+    CHECK(document["packs"] < document["adaptations"]);
+    CHECK(document["map_error_texels"]["median"] < 0.5);
+    const std::string new_texture = read_text(folder.path() / "level_texture.png"), new_map = read_text(folder.path() / "level.exr");
+    if (texture.empty()) texture = new_texture, map = new_map;
+    CHECK(new_texture == texture);
+    CHECK(new_map == map);
+  }
+  CHECK(texture != read_text(folder.path() / "swirl_texture.png"));
+}
+
+TEST_CASE("adapt: what is refused leaves nothing behind") {
+  const ScratchFolder folder;
+  make_swirl(folder);
+  check_refused({"adapt", "swirl.epm", "--faces", "300"}, 64, folder, "--map");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "-o", "level.obj"}, 64, folder, "go together");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.png"}, 64, folder, ".exr");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--size", "0"}, 64, folder, "size");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--size", "1000000"}, 64, folder, "1000000");
+  check_refused({"adapt", "swirl.obj", "--faces", "300", "--map", "level.exr"}, 4, folder, "swirl.obj");
+  const std::string whole = read_text(folder.path() / "swirl.epm");
+  folder.file("cut.epm", whole.substr(0, whole.size() * 3 / 4));
+  check_refused({"adapt", "cut.epm", "--faces", "300", "--map", "level.exr"}, 4, folder, "whole");
+  REQUIRE(run_etalon({"make", "duck", "--faces", "2000", "-o", "duck.ply"}, {.folder = folder.path()}).exit_code == 0);
+  REQUIRE(run_etalon({"progressive", "duck.ply", "--faces", "1000", "-o", "duck.epm"}, {.folder = folder.path()}).exit_code == 0);
+  check_refused({"adapt", "duck.epm", "--faces", "1500", "--map", "level.exr"}, 4, folder, "texture coordinates");
+}
