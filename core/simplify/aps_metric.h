@@ -10,17 +10,22 @@
 
 namespace etalon::simplify {
 
-/// Each face keeps a bound of the texture deviation over it: of the distance between its point and the input's point of the same texture coordinate. A
-/// collapse u→v replaces the faces of u by others that cover the same part of the texture; between them the deviation is linear in each cell of
-/// their overlay, so it is largest at a corner of one: at u, or where an old edge of u crosses a new one of v. The new bound of a side of u's curve is the
-/// largest old one plus the largest such deviation (the paper's boxes, here one number); the cost is the larger of the sides, a length in the unit cube.
+/// Each face keeps a bound of the texture deviation over it: of the distance between its point and the input's point of the same texture
+/// coordinate. A
+/// collapse u→v replaces the faces of u by others that cover the same part of the texture; between them the deviation is linear in each
+/// cell of
+/// their overlay, so it is largest at a corner of one: at u, or where an old edge of u crosses a new one of v. The new bound of a side of
+/// u's curve is the
+/// largest old one plus the largest such deviation (the paper's boxes, here one number); the cost is the larger of the sides, a length in
+/// the unit cube.
 ///
-/// Beside curves texture is gained and lost: there u counts against the nearest point, in the texture, of the new faces, and of what is lost nothing is
+/// Beside curves texture is gained and lost: there u counts against the nearest point, in the texture, of the new faces, and of what is
+/// lost nothing is
 /// kept. Where a chart is of under one
 /// texel (CollapseMesh::uv_sign) it counts against the nearest point in space. State: one float32 a face, rounded up; half-edge collapses.
 class ApsMetric {
  public:
-  static constexpr bool kCostsAreLocal = false, kBoundsAreLocal = false;
+  static constexpr bool kCostsAreLocal = false;
 
   ApsMetric(const CollapseMesh& mesh, const UnitPositions& positions, const QemOptions&)
       : mesh_(mesh), places_(positions.at), bounds_(mesh.face_capacity(), 0) {}

@@ -13,11 +13,13 @@
 namespace etalon::simplify {
 
 /// Attributes:
-///   kCount; kPerWedge (else per vertex); array<float, kCount> value(mesh, node) of a vertex or wedge; float stored(double), rounded and in range;
+///   kCount; kPerWedge (else per vertex); array<float, kCount> value(mesh, node) of a vertex or wedge; float stored(double), rounded and in
+/// range;
 ///   adopt(left, right, moved).
 /// Quadric<Real, M>: AttributeQuadric or HoppeQuadric.
 ///
-/// State: one quadric of float32 a node, measured from the node's own point in the unit cube, rounded once a collapse; all arithmetic in double. Per
+/// State: one quadric of float32 a node, measured from the node's own point in the unit cube, rounded once a collapse; all arithmetic in
+/// double. Per
 /// wedge, a seam vertex costs the sum over its wedges: a collapse joins the wedges of each side.
 template <template <class, std::size_t> class Quadric, class Attributes>
 class AttributeMetric {

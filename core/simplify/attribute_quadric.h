@@ -8,7 +8,8 @@
 
 namespace etalon::simplify {
 
-/// Q(x) = xᵀA x + 2 bᵀx + c (eq. 12), x measured from the point agreed on: 28 coefficients for colours (M = 3), 21 for texture coordinates (M = 2).
+/// Q(x) = xᵀA x + 2 bᵀx + c (eq. 12), x measured from the point agreed on: 28 coefficients for colours (M = 3), 21 for texture coordinates
+/// (M = 2).
 template <class Real, std::size_t M>
 struct AttributeQuadric {
   static constexpr std::size_t kAttributes = M, kSize = 3 + M;
@@ -22,7 +23,8 @@ struct AttributeQuadric {
 
 static_assert(sizeof(AttributeQuadric<float, 3>) == 112);
 
-/// Adds weight · (squared distance to the plane through the origin that e1 and e2 span): A = I − e1 e1ᵀ − e2 e2ᵀ of the orthonormalised sides
+/// Adds weight · (squared distance to the plane through the origin that e1 and e2 span): A = I − e1 e1ᵀ − e2 e2ᵀ of the orthonormalised
+/// sides
 /// (eqs. 10, 11), b = c = 0. Nothing where they span no plane: where the rounding of float32 corners could have made all of their second
 /// direction, 2^-24 of its length.
 template <std::size_t M>
@@ -103,7 +105,8 @@ double total_weight(const AttributeQuadric<Real, M>& q) {
   return trace / (1 + M);
 }
 
-/// Takes the attributes out, each where it makes Q least for a given position (Schur complement, last attribute first): what is left is position_part().
+/// Takes the attributes out, each where it makes Q least for a given position (Schur complement, last attribute first): what is left is
+/// position_part().
 /// False where Q leaves an attribute open: a pivot of at most `least`.
 template <std::size_t M>
 bool eliminate_attributes(AttributeQuadric<double, M>& q, double least) {

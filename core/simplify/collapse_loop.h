@@ -11,16 +11,22 @@
 
 namespace etalon::simplify {
 
-/// Metric: double cost(u, v, half-edge between them) (never NaN, ≥ 0), of the states of u and v and the faces of u; costs(u, candidates), of all; collapse(u, v, edge), the state
-/// of v after u went into it, called before the faces change, by which no cost of a way to v falls; and kCostsAreLocal: whether a cost leaves the other faces of u out, so
-/// that a vertex that loses a neighbour keeps its other costs. Where costs are dear it may have bounds as well: bound(u, v), never above the cost as
-/// computed; kBoundsAreLocal, likewise; bounds(u, candidates), of all; and then cost_of_bounded(u, candidate with its bound for a cost), the bits of cost(u, v, …).
+/// Metric: double cost(u, v, half-edge between them) (never NaN, ≥ 0), of the states of u and v and the faces of u; costs(u, candidates),
+/// of all;
+/// collapse(u, v, edge), the state of v after u went into it, called before the faces change, by which no cost of a way to v falls; and
+/// kCostsAreLocal: whether a cost leaves the other faces of u out, so that a vertex that loses a neighbour keeps its other costs. Where
+/// costs are
+/// dear it may have bounds(u, candidates) instead of costs(), never above the costs as computed, and then cost_of_bounded(u, candidate with
+/// its bound for a cost), the bits of cost(u, v, …).
 ///
-/// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged then; a
+/// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged
+/// then; a
 /// refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of the
 /// vertex change (the link condition of u→v eases only where u loses a neighbour, everything else depends on the faces of u and the place
-/// of v), and then all its candidates are considered anew. So the first candidate that is legal when popped is the least of all. (One exception:
-/// beside a place of several fans, where another fan's faces decide the link condition too, a collapse that becomes legal may be seen late.)
+/// of v), and then all its candidates are considered anew. So the first candidate that is legal when popped is the least of all. (One
+/// exception:
+/// beside a place of several fans, where another fan's faces decide the link condition too, a collapse that becomes legal may be seen
+/// late.)
 template <class Metric>
 class CollapseLoop {
  public:
@@ -34,19 +40,16 @@ class CollapseLoop {
       : mesh_(mesh), metric_(metric), legality_(legality), queue_(mesh.vertex_capacity()), refused_(mesh.vertex_capacity(), false) {
     std::vector<QueuedCollapse> entries;
     for (std::uint32_t u = 0; u < mesh_.vertex_capacity(); ++u)
-      if (const QueuedCollapse entry = entry_of(u); entry.target != kNone) entries.push_back(entry);
+      if (const QueuedCollapse entry = best_of(u); entry.target != kNone) entries.push_back(entry);
     queue_.assign(std::move(entries));
   }
 
-  /// The next collapse, judged legal and not yet done; u is kNone where none is left. `accept(step)`: a last word, Refusal::none or another.
+  /// The next collapse, judged legal and not yet done; u is kNone where none is left. `accept(step)`: a last word, Refusal::none or
+  /// another.
   template <class Accept>
   [[nodiscard]] Step find(const Accept& accept) {
     while (!queue_.empty()) {
       const QueuedCollapse top = queue_.top();
-      if (top.target == kUnpriced) {
-        requeue(best_of(top.vertex));
-        continue;
-      }
       const Step step{top.vertex, top.target, mesh_.find_edge(top.vertex, top.target), top.cost};
       Refusal refusal = legality_.check(top.vertex, step.edge);
       if (refusal == Refusal::none) refusal = accept(step);
@@ -68,7 +71,7 @@ class CollapseLoop {
     queue_.remove(step.u);
     metric_.collapse(step.u, step.v, step.edge);
     mesh_.collapse(step.u, step.edge);
-    requeue(entry_of(step.v));
+    requeue(best_of(step.v));
     // What was near u is near v now. Vertices that lost u as a neighbour: their faces changed. The others only see v dearer.
     mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t h) {
       for (const std::uint32_t n : near_)
@@ -81,15 +84,7 @@ class CollapseLoop {
   [[nodiscard]] const CollapseQueue& queue() const { return queue_; }
 
  private:
-  static constexpr std::uint32_t kUnpriced = kNone - 1;
-  static constexpr bool kHasBounds = requires(Metric & m) { m.bound(0u, 0u); };
-
-  static constexpr bool kHasLocalBounds = [] {
-    if constexpr (kHasBounds)
-      return Metric::kBoundsAreLocal;
-    else
-      return false;
-  }();
+  static constexpr bool kHasBounds = requires(Metric & m, std::vector<CollapseCandidate> c) { m.bounds(0u, c); };
 
   static bool before(double cost_a, std::uint32_t a, double cost_b, std::uint32_t b) { return cost_a != cost_b ? cost_a < cost_b : a < b; }
 
@@ -140,11 +135,6 @@ class CollapseLoop {
 
   // Whether u→v now comes before u's entry; then it takes its place.
   void see_cost(std::uint32_t u, std::uint32_t v, std::uint32_t h, const QueuedCollapse& entry) {
-    if constexpr (kHasBounds) {
-      const double bound = metric_.bound(u, v);
-      if (bound > entry.cost) return;
-      if (entry.target == kUnpriced) return queue_.set({bound, u, kUnpriced});
-    }
     const double cost = metric_.cost(u, v, h);
     if (before(cost, v, entry.cost, entry.target)) queue_.set({cost, u, v});
   }
@@ -156,21 +146,6 @@ class CollapseLoop {
       queue_.set(entry);
   }
 
-  // What waits in the queue for a vertex whose costs may all have changed: where costs are dear, the least of their bounds, and they are worked out
-  // when it comes to the top.
-  [[nodiscard]] QueuedCollapse entry_of(std::uint32_t w) {
-    if constexpr (kHasBounds) {
-      refused_[w] = false;
-      QueuedCollapse entry{std::numeric_limits<double>::infinity(), w, kNone};
-      gather(w);
-      metric_.bounds(w, candidates_);
-      for (const CollapseCandidate& candidate : candidates_) entry = {std::min(entry.cost, candidate.cost), w, kUnpriced};
-      return entry;
-    } else {
-      return best_of(w);
-    }
-  }
-
   // w's faces changed. Without a refusal, and with its best elsewhere, only the way to v can have become better.
   void refresh(std::uint32_t w, std::uint32_t h, const Step& step) {
     if constexpr (Metric::kCostsAreLocal) {
@@ -179,20 +154,13 @@ class CollapseLoop {
         if (entry.target != step.u && entry.target != step.v) return see_cost(w, step.v, h, entry);
       }
     }
-    if constexpr (kHasLocalBounds) {
-      // The bounds that make up w's are the same, but for those of the ways to u and v.
-      if (mesh_.kind(w) == VertexKind::interior && queue_.contains(w) && queue_.of(w).target == kUnpriced) {
-        const double bound = metric_.bound(w, step.v);
-        if (bound < queue_.of(w).cost) queue_.set({bound, w, kUnpriced});
-        return;
-      }
-    }
-    requeue(entry_of(w));
+    requeue(best_of(w));
   }
 
-  // v's state changed, w's faces did not: the way to v has become dearer or stayed, so only an entry that is that way is not the least any more.
+  // v's state changed, w's faces did not: the way to v has become dearer or stayed, so only an entry that is that way is not the least any
+  // more.
   void see_dearer_cost(std::uint32_t w, std::uint32_t v) {
-    if (queue_.contains(w) && queue_.of(w).target == v) requeue(entry_of(w));
+    if (queue_.contains(w) && queue_.of(w).target == v) requeue(best_of(w));
   }
 
   CollapseMesh& mesh_;

@@ -30,8 +30,7 @@ struct InputRepair {
   Defect inconsistent_edges;     ///< lowest faces at an edge that both its faces run along in the same direction: cut, ends locked
   Defect non_manifold_vertices;  ///< vertices whose faces do not form one fan: locked
   Defect unreferenced_vertices;  ///< vertices of no face: left out of the result
-  Defect
-      color_seam_vertices;  ///< boundary vertices that share their place with one of another colour: locked, or the surface would open there
+  Defect color_seam_vertices;    ///< boundary vertices that share their place with another colour: they stay
   [[nodiscard]] bool non_manifold() const {
     return non_manifold_edges.found() || inconsistent_edges.found() || non_manifold_vertices.found();
   }
@@ -39,7 +38,8 @@ struct InputRepair {
 
 /// The triangles. Half-edge 4·face + corner runs from that corner to the next one of its face, the face on its left.
 ///
-/// A vertex whose faces form several fans is several engine vertices, each locked, that share a place: the first keeps the mesh's index, the
+/// A vertex whose faces form several fans is several engine vertices, each locked, that share a place: the first keeps the mesh's index,
+/// the
 /// others are numbered from the mesh's vertex count on (origin() leads back). So every engine vertex has one fan, which is all that
 /// a collapse needs, and the mesh stays joined where it was.
 class CollapseMesh {
@@ -101,7 +101,8 @@ class CollapseMesh {
   [[nodiscard]] std::uint32_t rotate(std::uint32_t h) const { return opposite(previous(h)); }
   [[nodiscard]] bool on_boundary(std::uint32_t v) const { return opposite(out_[v]) == kNone; }
 
-  /// Calls visit(neighbour, half-edge on the edge to it), counter-clockwise; the half-edge leaves v, except for the last neighbour of an open fan.
+  /// Calls visit(neighbour, half-edge on the edge to it), counter-clockwise; the half-edge leaves v, except for the last neighbour of an
+  /// open fan.
   template <class Visit>
   void for_each_neighbor(std::uint32_t v, const Visit& visit) const {
     const std::uint32_t first = out_[v];

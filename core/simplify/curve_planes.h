@@ -8,7 +8,8 @@
 namespace etalon::simplify {
 
 struct QemOptions {
-  /// Weights of the planes that stand perpendicular on faces along curves, times the squared length of the edge: what keeps borders in place.
+  /// Weights of the planes that stand perpendicular on faces along curves, times the squared length of the edge: what keeps borders in
+  /// place.
   double boundary_weight = 10, seam_weight = 1;
 };
 
@@ -39,7 +40,8 @@ inline FaceSides face_sides(const CollapseMesh& mesh, const UnitPositions& posit
   return sides;
 }
 
-/// Calls add(unit normal, weight) for the planes through the corner at the start of h that stand perpendicular on its face along its curve edges
+/// Calls add(unit normal, weight) for the planes through the corner at the start of h that stand perpendicular on its face along its curve
+/// edges
 /// [Garland & Heckbert 1997, sec. 6]: normal e × n, weight·|e|².
 template <class Add>
 void for_each_curve_plane(const CollapseMesh& mesh, std::uint32_t h, const FaceSides& sides, const QemOptions& options, const Add& add) {

@@ -1,4 +1,5 @@
-// The strict loop of full-edge collapses: at each step the one legal edge collapse of least (cost, lower end, higher end), over the whole mesh.
+// The strict loop of full-edge collapses: at each step the one legal edge collapse of least (cost, lower end, higher end), over the whole
+// mesh.
 // [Garland & Heckbert 1997]; [Kim, Choi & Lee 2008, figure 1a].
 #pragma once
 
@@ -17,7 +18,8 @@ namespace etalon::simplify {
 /// Metric: as for CollapseLoop, its costs local; Placement place(u, v, edge), void merge(u, v, edge, placement) (before v moves), and
 /// void adopt(placement, u, v, edge, MovedVertex&), which overwrites what the metric chose itself.
 ///
-/// An edge of two interior vertices, or on a curve, becomes one vertex where the metric places it: the lower vertex stays and moves. Where only one
+/// An edge of two interior vertices, or on a curve, becomes one vertex where the metric places it: the lower vertex stays and moves. Where
+/// only one
 /// end may go (an interior vertex beside a curve, a curve vertex beside a locked one) it goes into the other as a half-edge.
 ///
 /// The queue holds for each vertex the least of its edges to higher vertices not yet refused. A refusal may become void when the faces of
@@ -48,7 +50,8 @@ class FullEdgeLoop {
     queue_.assign(std::move(entries));
   }
 
-  /// The next collapse, judged legal and not yet done; u is kNone where none is left. `accept(step)`: a last word, Refusal::none or another.
+  /// The next collapse, judged legal and not yet done; u is kNone where none is left. `accept(step)`: a last word, Refusal::none or
+  /// another.
   template <class Accept>
   [[nodiscard]] Step find(const Accept& accept) {
     while (!queue_.empty()) {

@@ -1,4 +1,5 @@
-// The metric `hoppe`: squared distances to planes, and of colours to those that the planes' faces have below: 23 coefficients a vertex (92 bytes).
+// The metric `hoppe`: squared distances to planes, and of colours to those that the planes' faces have below: 23 coefficients a vertex (92
+// bytes).
 // [Hoppe 1999, sec. 4].
 #pragma once
 

@@ -10,7 +10,8 @@
 namespace etalon::simplify {
 
 struct KimOptions {
-  /// The length in model units that counts as 1; 0: the bounding box diagonal / 8000. Q has the unit length⁴ and C length, so the balance of
+  /// The length in model units that counts as 1; 0: the bounding box diagonal / 8000. Q has the unit length⁴ and C length, so the balance
+  /// of
   /// equation 17 depends on it; the default is the scale that the figures of the paper's table 2 suggest.
   double unit = 0;
 };
@@ -20,7 +21,7 @@ struct KimOptions {
 class KimMetric {
  public:
   /// Equation 16 sums over the neighbours of u: its costs change whenever its faces do.
-  static constexpr bool kCostsAreLocal = false, kBoundsAreLocal = true;
+  static constexpr bool kCostsAreLocal = false;
 
   /// InputError where the mesh has no colours or the unit is not a positive number.
   KimMetric(const CollapseMesh& mesh, const UnitPositions& positions, const QemOptions& qem, const KimOptions& options);
@@ -47,7 +48,8 @@ class KimMetric {
 
   /// I(v) (eqs. 14, 15).
   [[nodiscard]] double importance(std::uint32_t v) const { return importance_[v]; }
-  /// C(u→v) (eq. 16, its last factor read as ‖v1 − vi‖), over the neighbours that u has now; each product of a colour distance and a length as one
+  /// C(u→v) (eq. 16, its last factor read as ‖v1 − vi‖), over the neighbours that u has now; each product of a colour distance and a length
+  /// as one
   /// square root.
   [[nodiscard]] double color_error(std::uint32_t u, std::uint32_t v) const;
 

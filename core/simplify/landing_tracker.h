@@ -8,8 +8,10 @@
 
 namespace etalon::simplify {
 
-/// A vertex lands, when it is removed or moved, on the nearest point of the faces that replace its own, and goes on to the nearest point of what replaces
-/// those whenever they change: so its landing stays in its chart and near it, and is an upper bound of its distance to the surface. A vertex on
+/// A vertex lands, when it is removed or moved, on the nearest point of the faces that replace its own, and goes on to the nearest point of
+/// what replaces
+/// those whenever they change: so its landing stays in its chart and near it, and is an upper bound of its distance to the surface. A
+/// vertex on
 /// a curve lands on an edge that its curve becomes, and stays on the curve. Among equally near faces the lowest is taken.
 /// Time: each collapse re-lands what its faces hold, so about (vertices / faces left) · (faces of a vertex)² nearest points.
 class LandingTracker {
@@ -18,14 +20,16 @@ class LandingTracker {
 
   /// The collapse u→v that may come next; `at`: where v goes (model units), or nothing where it stays. Changes no landing.
   void plan(std::uint32_t u, const CollapseMesh::Edge& edge, const Vec3f* at = nullptr);
-  /// Whether, after the planned collapse, every landing that it changes is within `distance` (≥ 0, model units) of its vertex, and that by more than
+  /// Whether, after the planned collapse, every landing that it changes is within `distance` (≥ 0, model units) of its vertex, and that by
+  /// more than
   /// its rounding: 2^-48 of the model's largest coordinate.
   [[nodiscard]] bool planned_within(double distance) const;
   /// Around the planned collapse: before() it is done, and after().
   void before();
   void after();
 
-  /// By vertex of the source; faces are those of the source. Vertices that never moved and are still there land on themselves, in their lowest face.
+  /// By vertex of the source; faces are those of the source. Vertices that never moved and are still there land on themselves, in their
+  /// lowest face.
   [[nodiscard]] std::vector<Landing> landings() const;
 
  private:

@@ -66,7 +66,8 @@ Refusal Legality::check_move(std::uint32_t u, std::uint32_t v, const CollapseMes
 }
 
 // Common neighbours of u and v are the third corners of the faces on their edge, and no others; an inner edge does not join two boundaries.
-// Neighbours are told apart by the source's vertices: several fans at one place count as one, or a hole between two of them could close unseen.
+// Neighbours are told apart by the source's vertices: several fans at one place count as one, or a hole between two of them could close
+// unseen.
 bool Legality::link_holds(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) {
   if (edge.face_count() == 2 && mesh_.on_boundary(u) && mesh_.on_boundary(v)) return false;
   if (++current_ == 0) {  // the counter ran around: old marks must not look new

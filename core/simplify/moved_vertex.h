@@ -11,7 +11,8 @@ struct MovedVertex {
   std::array<Vec2f, 2> uv{};  ///< left and right of u→v, where it has texture coordinates; equal where no curve parts the sides
 };
 
-/// The vertex at `at` with the attributes that the surface has near it: at the nearest point of the faces of u and v, the lowest face among equally
+/// The vertex at `at` with the attributes that the surface has near it: at the nearest point of the faces of u and v, the lowest face among
+/// equally
 /// near ones; on a curve, at the nearest point of the edge, so that both sides stay together. Weighted in double, rounded once.
 [[nodiscard]] MovedVertex carried(const CollapseMesh& mesh, const UnitPositions& positions, std::uint32_t u, std::uint32_t v,
                                   const CollapseMesh::Edge& edge, const Vec3f& at);

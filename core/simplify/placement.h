@@ -15,7 +15,8 @@ inline constexpr std::size_t kMaxSides = 2;
 struct Placement {
   double cost = std::numeric_limits<double>::infinity();
   Vec3f at{0, 0, 0};  ///< in the unit cube, rounded: the cost is that of this place
-  /// What a metric with attributes chose for each side (side 0 first that exists, as the metric numbers them), rounded and in range likewise.
+  /// What a metric with attributes chose for each side (side 0 first that exists, as the metric numbers them), rounded and in range
+  /// likewise.
   std::array<std::array<float, 3>, kMaxSides> attributes{};
 };
 
@@ -24,7 +25,8 @@ struct NoAttributes {
   std::array<double, 0> operator()(std::size_t, const std::array<double, 0>&, std::array<float, 3>&) const { return {}; }
 };
 
-/// The position and the attributes of each side that make the sum of the merged quadrics least, rounded. Where the sum leaves them open (a flat
+/// The position and the attributes of each side that make the sum of the merged quadrics least, rounded. Where the sum leaves them open (a
+/// flat
 /// or straight neighbourhood, pivots below kLeastPivot): the best of v, u and the middle between them, in this order.
 /// merged: measured from v, one a side; to_u: the step from v to u of each side, or empty without attributes.
 template <class Quadric, class Round>

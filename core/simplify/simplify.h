@@ -44,7 +44,8 @@ struct SimplifyOptions {
   MetricName metric = MetricName::qem;
   CollapseKind collapse = CollapseKind::half;
   std::size_t target_faces = 0;  ///< stop at the first count that is not above it: one below where an inner edge passes it
-  /// No vertex of the input may come to lie farther than this from the result (model units, ≥ 0): guaranteed, and audited at the end against all faces
+  /// No vertex of the input may come to lie farther than this from the result (model units, ≥ 0): guaranteed, and audited at the end
+  /// against all faces
   /// of the result. Implies record_landings.
   std::optional<double> tolerance;
   std::vector<VertexId> locked;      ///< vertices that stay where they are; others may still collapse into them
@@ -80,7 +81,8 @@ struct SimplifyResult {
   StopReason stop = StopReason::faces;
   std::size_t collapse_count = 0;
   double max_cost = 0;  ///< largest cost paid, in the metric's own unit
-  /// Largest cost paid as a length in model units: for `qem` and `kim` the weighted root mean square distance of a target to all planes it then stands for, for the others
+  /// Largest cost paid as a length in model units: for `qem` and `kim` the weighted root mean square distance of a target to all planes it
+  /// then stands for, for the others
   /// with attributes that of position and attributes together, for `aps` the bound of the texture deviation.
   double error = 0;
   std::array<std::uint64_t, kRefusalCount> refusals{};                         ///< candidates refused when they were the least, by Refusal
@@ -89,16 +91,21 @@ struct SimplifyResult {
   std::size_t state_bytes = 0;             ///< of the metric, measured
   std::size_t state_bytes_per_vertex = 0;  ///< state_bytes over the vertices of the engine, rounded up
   std::vector<Landing> landings;           ///< #V of the input, on `mesh`; empty unless recorded
-  /// Largest distance of a vertex of the input to its landing: no vertex is farther from `mesh` than that. Nothing unless landings are recorded.
+  /// Largest distance of a vertex of the input to its landing: no vertex is farther from `mesh` than that. Nothing unless landings are
+  /// recorded.
   std::optional<double> distance_max;
-  /// With a tolerance: the largest distance of a vertex of the input to the nearest point of all of `mesh`; at most distance_max, up to rounding.
+  /// With a tolerance: the largest distance of a vertex of the input to the nearest point of all of `mesh`; at most distance_max, up to
+  /// rounding.
   std::optional<double> distance_audited;
 };
 
-/// Collapses until the target or until nothing legal is left. The same bytes for every machine, compiler and thread count: double arithmetic in a
+/// Collapses until the target or until nothing legal is left. The same bytes for every machine, compiler and thread count: double
+/// arithmetic in a
 /// written order, ties by lowest vertex, then lowest target.
-/// InputError where the mesh has no faces, an index is out of range, a position or uv is not finite, a locked vertex does not exist, an attribute of the
-/// metric is missing, a corner of a chart has two wedges (full-edge collapses and qem5: weld first), or, with refuse_non_manifold, with count and
+/// InputError where the mesh has no faces, an index is out of range, a position or uv is not finite, a locked vertex does not exist, an
+/// attribute of the
+/// metric is missing, a corner of a chart has two wedges (full-edge collapses and qem5: weld first), or, with refuse_non_manifold, with
+/// count and
 /// place of what is not manifold.
 [[nodiscard]] SimplifyResult simplify_mesh(const Mesh& mesh, const SimplifyOptions& options);
 

@@ -76,8 +76,10 @@ TEST_CASE("a crossing: the deviation is largest where an old edge crosses a new 
   CollapseMesh mesh(bent, {});
   const UnitPositions positions = unit_positions(mesh);
   ApsMetric metric(mesh, positions, {});
-  // Into 1 = (1, 0): the new diagonal runs from (1, 0) to (0, 1), x + y = 1. u = (0.25, 0.5) is in the face 1, 3, 4, whose height is y - 0 there:
-  // z = y, so u is off by 0.5. The edge 0-2 crosses the diagonal where 0.25 + 0.75 t + 0.5 + 0.5 t = 1, t = 0.2, (0.4, 0.6): old height 0, new 0.6.
+  // Into 1 = (1, 0): the new diagonal runs from (1, 0) to (0, 1), x + y = 1. u = (0.25, 0.5) is in the face 1, 3, 4, whose height is y - 0
+  // there:
+  // z = y, so u is off by 0.5. The edge 0-2 crosses the diagonal where 0.25 + 0.75 t + 0.5 + 0.5 t = 1, t = 0.2, (0.4, 0.6): old height 0,
+  // new 0.6.
   CHECK(metric.cost(0, 1, mesh.find_edge(0, 1).left) == doctest::Approx(0.6).epsilon(1e-12));
 }
 

@@ -167,12 +167,14 @@ TEST_CASE("qem6 by hand: a flat square of one triangle's colours") {
   const UnitPositions positions = unit_positions(engine);
   CHECK(positions.longest == 1);
   const Qem6Metric metric(engine, positions, {.boundary_weight = 0}, 1);
-  // Vertex 1's one face, (0,0) (1,0) (1,1), has red = y over itself: in (y, red) its plane is the line (1, 1)/√2. Vertex 0 at y = 0, red = 0 lies in it.
+  // Vertex 1's one face, (0,0) (1,0) (1,1), has red = y over itself: in (y, red) its plane is the line (1, 1)/√2. Vertex 0 at y = 0, red =
+  // 0 lies in it.
   CHECK(metric.cost(1, 0, engine.first_out(1)) == doctest::Approx(0).epsilon(1e-15));
   // Twice the weight on colours: the same plane in another scale.
   const Qem6Metric heavy(engine, positions, {.boundary_weight = 0}, 2);
   CHECK(heavy.cost(1, 0, engine.first_out(1)) == doctest::Approx(0).epsilon(1e-15));
-  // From vertex 0, whose faces say red = y and red = x, to vertex 1 = (1, 0), red 0: off red = x, whose plane has the normal (1, −1)/√2 in (x, red).
+  // From vertex 0, whose faces say red = y and red = x, to vertex 1 = (1, 0), red 0: off red = x, whose plane has the normal (1, −1)/√2 in
+  // (x, red).
   CHECK(metric.cost(0, 1, engine.find_edge(0, 1).left) == doctest::Approx(0.5 * 0.5).epsilon(1e-14));
 }
 

@@ -39,7 +39,8 @@ TEST_CASE("link: a third common neighbour") {
 }
 
 TEST_CASE("link: a hole between two fans of one vertex may not close") {
-  // Two squares of two triangles that share vertex 0 and are joined at the far side of a triangular hole 0, 1, 2: vertex 0 has a fan with 1 and one with 2.
+  // Two squares of two triangles that share vertex 0 and are joined at the far side of a triangular hole 0, 1, 2: vertex 0 has a fan with 1
+  // and one with 2.
   const Mesh pinched = mesh_of({{0, 0, 0}, {1, 1, 0}, {1, -1, 0}, {0, 2, 0}, {0, -2, 0}, {3, 0, 0}},
                                {{0, 1, 3}, {0, 4, 2}, {1, 5, 3}, {4, 5, 2}, {1, 2, 5}});
   const CollapseMesh mesh(pinched, {});
