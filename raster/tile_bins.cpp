@@ -9,19 +9,21 @@ namespace {
 
 // Tiles of a bounding box; empty where it holds no sample of the frame.
 struct TileBox {
-  std::int16_t x0 = 0, x1 = -1, y0 = 0, y1 = -1;
+  std::int16_t x0, x1, y0, y1;
 };
+constexpr TileBox kNoTiles = {0, -1, 0, -1};
 
 struct Grid {
   int bits, width, height;
   [[nodiscard]] TileBox box(const RasterVertex& a, const RasterVertex& b, const RasterVertex& c) const {
-    const std::int64_t half = std::int64_t{1} << (bits - 1);
-    const auto first = [&](std::int64_t lo) { return std::max<std::int64_t>((lo + half - 1) >> bits, 0); };  // ceil(lo − ½)
-    const auto last = [&](std::int64_t hi, int size) { return std::min<std::int64_t>((hi - half) >> bits, size - 1); };
-    const std::int64_t i0 = first(std::min({a.x, b.x, c.x})), i1 = last(std::max({a.x, b.x, c.x}), width);
-    const std::int64_t j0 = first(std::min({a.y, b.y, c.y})), j1 = last(std::max({a.y, b.y, c.y}), height);
-    if (i0 > i1 || j0 > j1) return {};
-    const auto tile = [](std::int64_t texel) { return static_cast<std::int16_t>(texel / kTileSize); };
+    // Positions are within ±2^30 sub-texels (docs/contract.md#input).
+    const std::int32_t half = std::int32_t{1} << (bits - 1);
+    const auto first = [&](std::int32_t lo) { return std::max((lo + half - 1) >> bits, 0); };  // ceil(lo − ½)
+    const auto last = [&](std::int32_t hi, int size) { return std::min((hi - half) >> bits, size - 1); };
+    const std::int32_t i0 = first(std::min({a.x, b.x, c.x})), i1 = last(std::max({a.x, b.x, c.x}), width);
+    const std::int32_t j0 = first(std::min({a.y, b.y, c.y})), j1 = last(std::max({a.y, b.y, c.y}), height);
+    if (i0 > i1 || j0 > j1) return kNoTiles;
+    const auto tile = [](std::int32_t texel) { return static_cast<std::int16_t>(texel / kTileSize); };
     return {tile(i0), tile(i1), tile(j0), tile(j1)};
   }
 };
@@ -38,7 +40,7 @@ TileBins::TileBins(const DrawList& list, const Frame& frame)
   const std::size_t grain = std::max(kLeastTriangles, (triangles + kMostBlocks - 1) / kMostBlocks);
   const std::size_t blocks = (triangles + grain - 1) / grain;
   const Grid grid = {frame.state.subtexel_bits, frame.width, frame.height};
-  std::vector<TileBox> boxes(triangles);
+  const auto boxes = std::make_unique_for_overwrite<TileBox[]>(triangles);
   std::vector<std::size_t> next(blocks * tiles, 0);  // first how many, then where the block's next id of a tile goes
 
   const auto for_tiles = [this](const TileBox& box, auto&& body) {
@@ -65,7 +67,7 @@ TileBins::TileBins(const DrawList& list, const Frame& frame)
     }
   }
   first_[tiles] = total;
-  ids_.resize(total);
+  ids_ = std::make_unique_for_overwrite<std::uint32_t[]>(total);
   parallel_for(blocks, [&](std::size_t block) {
     std::size_t* const at = next.data() + block * tiles;
     for (std::size_t t = block * grain; t < std::min(triangles, (block + 1) * grain); ++t)

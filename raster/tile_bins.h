@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,13 +21,13 @@ class TileBins {
   [[nodiscard]] Tile tile(std::size_t n) const;
   /// Ids of the triangles of tile n, ascending.
   [[nodiscard]] std::span<const std::uint32_t> triangles(std::size_t n) const {
-    return {ids_.data() + first_[n], first_[n + 1] - first_[n]};
+    return {ids_.get() + first_[n], first_[n + 1] - first_[n]};
   }
 
  private:
   int columns_, width_, height_;
   std::vector<std::size_t> first_;  ///< #tiles + 1, into ids_
-  std::vector<std::uint32_t> ids_;
+  std::unique_ptr<std::uint32_t[]> ids_;
 };
 
 }  // namespace etalon::raster

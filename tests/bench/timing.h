@@ -21,7 +21,7 @@ void measure_round(std::vector<Way>& ways);
 
 /// Makes turns long enough that waking threads and filling caches is a small part of them, as it is where frame follows frame: as many runs
 /// as the first round's times say that kLeastTurn_ms takes. Forgets those times.
-inline constexpr double kLeastTurn_ms = 30;
+inline constexpr double kLeastTurn_ms = 60;
 void choose_runs(std::vector<Way>& ways);
 
 /// The middle of the sorted values (the mean of the middle two); `values` is not empty.
