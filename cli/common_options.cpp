@@ -37,6 +37,16 @@ CLI::Validator not_empty() {
                         "");
 }
 
+CLI::Validator number_between(double low, double high) {
+  const auto check = [low, high](std::string& text) {
+    double value = 0;
+    const bool is_number = CLI::detail::lexical_cast(text, value);
+    return is_number && value >= low && value <= high ? std::string()
+                                                      : fmt::format("expected a number from {:g} to {:g}, got {}", low, high, text);
+  };
+  return CLI::Validator(check, "");
+}
+
 std::string counted(std::uint64_t count, const std::string& noun) {
   return fmt::format("{} {}{}", validation::grouped(count), noun, count == 1 ? "" : "s");
 }

@@ -29,6 +29,8 @@ struct CommonOptions {
 
 /// Refuses an empty argument: a variable of the shell that is not set, more often than not.
 [[nodiscard]] CLI::Validator not_empty();
+/// A number from low to high; not a NaN, which CLI::Range lets through.
+[[nodiscard]] CLI::Validator number_between(double low, double high);
 
 /// "1 face", "2 faces"; thousands in groups.
 [[nodiscard]] std::string counted(std::uint64_t count, const std::string& noun);

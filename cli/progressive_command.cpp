@@ -13,7 +13,9 @@
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/model_input.h"
+#include "cli/repair_notes.h"
 #include "cli/usage_error.h"
+#include "core/base/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/inputs.h"
 #include "core/io/mesh_file.h"
@@ -30,7 +32,7 @@ using validation::grouped;
 struct Options {
   std::string input, output, metric = "qem";
   std::int64_t faces = 0;
-  bool faces_given = false;
+  bool faces_given = false, metric_given = false;
   CommonOptions common;
 };
 
@@ -78,8 +80,12 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
     how.progress = [&](std::size_t done, std::size_t total) {
       console.progress("faces removed", static_cast<int>(done), static_cast<int>(total));
     };
-    return progressive::make_progressive(mesh, how);
+    progressive::ProgressiveResult result = progressive::make_progressive(mesh, how);
+    if (result.data.faces.empty()) throw InputError("expected a face with three different vertices, got none");
+    return result;
   });
+  for (const std::string& note : model.notes) console.line("note: " + note);
+  print_repair(console, made.simplified.repair);
   for (const io::Material& material : model.materials) made.data.material_names.push_back(printable(material.name));
   const std::string bytes = progressive::encode_epm(made.data);
   {
@@ -88,6 +94,12 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   }
   console.line(fmt::format("{}: from {} down to {} faces in {} splits, {} bytes", options.output, grouped(mesh.face_count()),
                            grouped(made.data.base_faces), grouped(made.data.splits.size()), grouped(bytes.size())));
+  const bool reached = !options.faces_given || made.simplified.stop == simplify::StopReason::faces;
+  if (!reached)
+    console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused",
+                             grouped(static_cast<std::uint64_t>(options.faces))));
+  if (const std::string attribution = input_of(options.input, "model").attribution; !attribution.empty()) console.line("by " + attribution);
+  console.line("wrote " + options.output);
   Json document = validation::document_head("progressive", {input_of(options.input, "model")});
   document["metric"] = options.metric;
   document["records"] = made.data.splits.size();
@@ -96,11 +108,12 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   document["bytes"] = bytes.size();
   document["mesh_sha256"] = nullptr;
   finish(options, console, std::move(document));
-  return kExitDone;
+  return reached ? kExitDone : kExitWarning;
 }
 
 int take_level(const Options& options, Console& console, CallFiles& files) {
   if (!options.faces_given) throw UsageError("progressive: expected --faces N with an .epm file: the level to write");
+  if (options.metric_given) throw UsageError("progressive: --metric is of making an .epm file, not of taking a level from one");
   if (options.output == "-") throw UsageError("progressive: a model may be several files: expected -o FILE.obj, .ply or .glb");
   const io::FileBytes file = io::read_file(options.input);
   progressive::EpmContent content = naming_the_model(options.input, [&] { return progressive::decode_epm(file.bytes()); });
@@ -122,6 +135,10 @@ int take_level(const Options& options, Console& console, CallFiles& files) {
                              grouped(content.splits_in_whole)));
   console.line(fmt::format("{}: {} and {} vertices, level {} of {}", options.output, counted(mesh.face_count(), "face"),
                            grouped(mesh.vertex_count()), grouped(content.mesh.level()), grouped(content.mesh.split_count())));
+  const bool reached = mesh.face_count() <= static_cast<std::size_t>(options.faces);
+  if (!reached)
+    console.line(fmt::format("the base has more than the {} faces asked for", grouped(static_cast<std::uint64_t>(options.faces))));
+  console.line("wrote " + options.output);
   Json document = validation::document_head("progressive", {input_of(options.input, "progressive mesh")});
   document["metric"] = nullptr;
   document["records"] = content.mesh.split_count();
@@ -130,7 +147,7 @@ int take_level(const Options& options, Console& console, CallFiles& files) {
   document["bytes"] = file.bytes().size();
   document["mesh_sha256"] = mesh_sha256(mesh);
   finish(options, console, std::move(document));
-  return kExitDone;
+  return reached ? kExitDone : kExitWarning;
 }
 
 int run(const Options& options) {
@@ -158,18 +175,20 @@ Verb add_progressive(CLI::App& root) {
                                        "From a model: triangles of the base (default: as few as it goes); from .epm: of the level, at most")
                            ->type_name("N")
                            ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 32));
-  app->add_option("--metric", options->metric,
-                  "Error metric, as of simplify: qem (default); qem5 and aps mind texture coordinates; qem6, hoppe and kim vertex colours")
-      ->type_name("METRIC")
-      ->check(CLI::IsMember({"qem", "qem5", "qem6", "hoppe", "kim", "aps"}));
+  CLI::Option* metric =
+      app->add_option(
+             "--metric", options->metric,
+             "Error metric, as of simplify: qem (default); qem5 and aps mind texture coordinates; qem6, hoppe and kim vertex colours")
+          ->type_name("METRIC")
+          ->check(CLI::IsMember({"qem", "qem5", "qem6", "hoppe", "kim", "aps"}));
   app->add_option("-o,--output", options->output, "Progressive mesh (.epm), or the level's model (.obj .ply .glb; without materials)")
       ->required()
       ->type_name("OUT")
       ->check(not_empty());
   add_common_options(*app, options->common,
                      "  etalon progressive scan.ply -o scan.epm\n  etalon progressive scan.epm --faces 5000 -o level.ply");
-  return {app, [options, faces] {
-            options->faces_given = faces->count() > 0;
+  return {app, [options, faces, metric] {
+            options->faces_given = faces->count() > 0, options->metric_given = metric->count() > 0;
             return run(*options);
           }};
 }

@@ -14,6 +14,7 @@
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/model_input.h"
+#include "cli/repair_notes.h"
 #include "cli/usage_error.h"
 #include "core/io/inputs.h"
 #include "core/io/mesh_file.h"
@@ -123,22 +124,11 @@ Json document_of(const Options& options, const Job& job, const SimplifyResult& r
 }
 
 void print_notes(Console& console, const Job& job, const SimplifyResult& result) {
-  const auto say = [&](const Defect& defect, const char* what, const char* place, const char* done) {
-    if (defect.found())
-      console.line(fmt::format("note: {}: {} ({} {}{}): {}", what, grouped(defect.count), place, defect.first[0],
-                               defect.count > 1 ? ", …" : "", done));
-  };
   for (const std::string& note : job.model.notes) console.line("note: " + note);
   if (job.vertices_read > job.model.mesh.vertex_count())
     console.line(fmt::format("note: vertices welded into others of the same place and colour: {}",
                              grouped(job.vertices_read - job.model.mesh.vertex_count())));
-  say(result.repair.repeated_corners, "faces that name a vertex twice", "face", "dropped");
-  say(result.repair.duplicate_faces, "faces that repeat an earlier one", "face", "dropped");
-  say(result.repair.non_manifold_edges, "edges of more than two faces", "face", "kept as they are");
-  say(result.repair.inconsistent_edges, "edges between faces of opposite orientation", "face", "kept as they are");
-  say(result.repair.non_manifold_vertices, "vertices whose faces are not one fan", "vertex", "kept as they are");
-  say(result.repair.color_seam_vertices, "boundary vertices that share their place with another colour", "vertex", "kept as they are");
-  say(result.repair.unreferenced_vertices, "vertices of no face", "vertex", "dropped");
+  print_repair(console, result.repair);
 }
 
 std::string refusals_line(const SimplifyResult& result) {
@@ -229,7 +219,7 @@ Verb add_simplify(CLI::App& root) {
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 32));
   app->add_option("--ratio", options->ratio, "Stop at this share of the model's triangles, 0 to 1")
       ->type_name("R")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0, 1));
   app->add_option("--tolerance", options->tolerance,
                   "Let no vertex of the model be farther than this from the result: model units, or 0.5% of the diagonal; alone, or with "
                   "--faces or --ratio, whichever comes first")
@@ -247,18 +237,19 @@ Verb add_simplify(CLI::App& root) {
          "hoppe, vertex colours by gradients; kim, that of Kim, Choi & Lee for vertex colours; aps, how far the texture moves")
       ->type_name("qem|qem5|qem6|hoppe|kim|aps")
       ->check(CLI::IsMember({"qem", "qem5", "qem6", "hoppe", "kim", "aps"}));
-  app->add_option(
-         "--weight", options->weight,
-         "For qem5, qem6 and hoppe: how long a difference of 1 in colour or texture is, the model's longest side being 1 (default 1)")
+  app->add_option("--weight", options->weight,
+                  "For qem5, qem6 and hoppe: how long a difference of 1 in colour or texture is, the model's longest side being 1: 1e-6 to "
+                  "1000 (default 1)")
       ->type_name("W")
-      ->check(CLI::PositiveNumber);
-  app->add_option("--unit", options->unit, "For kim: the length in model units that counts as 1 (default: the diagonal / 8000)")
+      ->check(number_between(1e-6, 1000));
+  app->add_option("--unit", options->unit,
+                  "For kim: the length in model units that counts as 1, 1e-12 to 1e12 (default: the diagonal / 8000)")
       ->type_name("L")
-      ->check(CLI::PositiveNumber);
+      ->check(number_between(1e-12, 1e12));
   app->add_option("--min-cosine", options->min_cosine,
                   "Least cosine between a triangle's normals before and after a collapse, 0 to 1 (default 0.2)")
       ->type_name("C")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(number_between(0, 1));
   app->add_flag("--refuse-non-manifold", options->refuse_non_manifold,
                 "Fail where the model is no oriented manifold, instead of keeping those places as they are");
   app->add_option("-o,--output", options->output, "Model to write: .obj .ply .glb")->required()->type_name("OUT")->check(not_empty());

@@ -119,7 +119,7 @@ Verb add_study(CLI::App& root) {
       ->type_name("MODEL");
   app->add_option("--reduction", options->subjects.reduction, "Share of the vertices of a mesh file that goes (default 0.9)")
       ->type_name("R")
-      ->check(CLI::Range(0.01, 0.999));
+      ->check(number_between(0.01, 0.999));
   app->add_option("--data", options->subjects.data, "Folder of the real inputs (default $ETALON_DATA, else etalon in your cache)")
       ->type_name("DIR")
       ->check(not_empty());

@@ -267,3 +267,38 @@ TEST_CASE("metro: refusals") {
   check_refused({"metro", "square.obj", "square.obj", "--json", "square.obj"}, 64, folder, "would overwrite surface a");
   check_refused({"metro", "square.obj", "missing.obj"}, 4, folder, "missing.obj");
 }
+
+TEST_CASE("simplify: numbers that are none or out of range are a usage error") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "knot", "--faces", "2000", "-o", "knot.ply"}, {.folder = folder.path()}).exit_code == 0);
+  const std::vector<std::string> head = {"simplify", "knot.ply", "-o", "out.ply"};
+  const std::vector<std::vector<std::string>> wrong = {{"--ratio", "nan"},
+                                                       {"--ratio", "1.5"},
+                                                       {"--ratio", "0.5", "--min-cosine", "nan"},
+                                                       {"--ratio", "0.5", "--metric", "qem6", "--weight", "nan"},
+                                                       {"--ratio", "0.5", "--metric", "qem6", "--weight", "0"},
+                                                       {"--ratio", "0.5", "--metric", "qem6", "--weight", "1e5"},
+                                                       {"--ratio", "0.5", "--metric", "kim", "--unit", "nan"},
+                                                       {"--ratio", "0.5", "--metric", "kim", "--unit", "1e-300"}};
+  for (const std::vector<std::string>& rest : wrong) {
+    std::vector<std::string> arguments = head;
+    arguments.insert(arguments.end(), rest.begin(), rest.end());
+    check_refused(arguments, 64, folder, "expected a number from");
+  }
+}
+
+TEST_CASE("progressive: what was repaired, a target that is not reached, options that do not belong, a model without faces") {
+  const ScratchFolder folder;
+  folder.file("book.obj", book_obj());
+  const CommandResult book = run_etalon({"progressive", "book.obj", "--faces", "1", "-o", "book.epm"}, {.folder = folder.path()});
+  CAPTURE(book.err);
+  CHECK(book.exit_code == 1);
+  CHECK(book.out.find("edges of more than two faces") != std::string::npos);
+  CHECK(book.out.find("stopped above the 1 faces asked for") != std::string::npos);
+  const CommandResult level = run_etalon({"progressive", "book.epm", "--faces", "1", "-o", "level.ply"}, {.folder = folder.path()});
+  CHECK(level.exit_code == 1);
+  CHECK(level.out.find("the base has more than") != std::string::npos);
+  check_refused({"progressive", "book.epm", "--faces", "3", "--metric", "kim", "-o", "other.ply"}, 64, folder, "--metric");
+  folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nf 1 2 1\nf 2 1 2\n");
+  check_refused({"progressive", "flat.obj", "-o", "flat.epm"}, 4, folder, "three different vertices");
+}

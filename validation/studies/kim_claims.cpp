@@ -58,6 +58,7 @@ std::string sweep_on_geometry(const KimStudyResult& result, double KimSweepPoint
   for (const KimSubjectResult& subject : result.subjects) {
     if (subject.sweep.empty() || ratio(subject, base_value, KimMethod::qem6) < 1) continue;
     const KimOutcome& base = subject.of(KimMethod::qem6);
+    if (!(base_value(base) > 0) || !(base.image_rms > 0)) continue;  // nothing was lost: no unit can lose less
     const auto best = std::min_element(subject.sweep.begin(), subject.sweep.end(),
                                        [&](const KimSweepPoint& a, const KimSweepPoint& b) { return a.*value < b.*value; });
     const double least = (*best).*value / base_value(base);
