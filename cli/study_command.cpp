@@ -80,7 +80,12 @@ int run(const Options& options) {
 
   raster::CpuRenderer exact;
   const KimStudyResult result = run_kim_study(subjects, exact, study_options(options, device, console));
-  const StudyReport report = kim_report(result);
+  StudyReport report = kim_report(result);
+  if (options.subjects.quick) {
+    const std::string warning = "A quick run: small models, few samples. No figure of it counts.";
+    report.lede = warning + " " + report.lede;
+    console.line("note: " + warning);
+  }
   for (const StudyClaim& claim : report.claims)
     console.line(fmt::format("{:<6} {} {}", to_string(claim.verdict), claim.claim, claim.measured));
 

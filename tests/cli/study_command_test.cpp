@@ -54,6 +54,7 @@ TEST_CASE("study kim on a mesh of one's own: a folder, a document that keeps its
   CHECK(first["tables"][0]["rows"][0][6] == 198);  // 20 % of 71 · 14 vertices
   for (const char* file : {"index.html", "table2.csv", "table3.csv", "unit-sweep.csv", "knot-kim.png", "legend.png"})
     CHECK(std::filesystem::exists(folder.path() / "out" / file));
+  CHECK(read_text(folder.path() / "out" / "index.html").find("No figure of it counts") != std::string::npos);
   for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "out"))
     CHECK(entry.path().filename().string().front() != '.');  // nothing temporary stays
 }

@@ -253,7 +253,7 @@ StudyReport kim_report(const KimStudyResult& result) {
   report.lede =
       "The paper simplifies coloured meshes by half-edge collapses of least (1 + Q)(1 + I)(1 + C) and compares with the colour quadric of "
       "Garland & Heckbert. "
-      "Both run here in one engine, on models of the paper's sizes and on real scans.";
+      "Both run here in one engine, on the models of table 1.";
   report.inputs = result.inputs;
   report.claims = kim_claims(result);
   report.tables = {size_table(result), time_table(result), geometry_table(result), image_table(result)};
