@@ -10,9 +10,9 @@
 # The golden hash changes only with kRasterContractVersion (or with the scenes), and a line in CHANGELOG.md.
 set -u
 if [ $# -ne 3 ]; then echo "usage: hash_matrix.sh SOURCE BUILD PROGRAM"; exit 64; fi
-source_dir=$1 build_dir=$2 program=$3
+mkdir -p "$2/hash_matrix" || exit 64
+source_dir=$(cd -- "$1" && pwd) build_dir=$(cd -- "$2" && pwd) program=$3  # builds run in folders of their own
 work="$build_dir/hash_matrix"
-mkdir -p "$work"
 launcher=$(command -v ccache || true)
 golden=$(head -n 1 "$source_dir/data/golden/hash_scenes.sha256" | cut -d' ' -f1)
 failed=0
