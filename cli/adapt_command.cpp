@@ -9,7 +9,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "cli/attribution.h"
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
@@ -36,16 +35,6 @@ struct Options {
   std::int64_t faces = 0;
   CommonOptions common;
 };
-
-validation::VerifyInput input_of(const std::string& path, const std::string& role) {
-  validation::VerifyInput input{.name = std::filesystem::path(path).filename().string(),
-                                .sha256 = io::file_sha256(path),
-                                .path = path,
-                                .role = role,
-                                .attribution = ""};
-  input.attribution = attribution_of(input.sha256);
-  return input;
-}
 
 struct Work {
   progressive::ProgressiveMesh mesh;
@@ -97,9 +86,11 @@ int run(const Options& options) {
   if (!options.texture.empty()) files.add_input(options.texture, "--texture");
   std::vector<io::Material> materials;
   if (!options.texture.empty()) materials.push_back({.name = "adapted", .texture_path = {}, .texture = io::read_image(options.texture)});
-  if (!options.output.empty())
-    for (const std::filesystem::path& path : io::mesh_output_files(options.output, materials)) files.add_output(path.string(), "-o");
+  std::vector<std::filesystem::path> written;
+  if (!options.output.empty()) written = io::mesh_output_files(options.output, materials);
+  for (const std::filesystem::path& path : written) files.add_output(path.string(), "-o");
   files.add_output(options.map, "--map");
+  if (!options.map.empty()) written.emplace_back(options.map);
   files.add_output(options.common.json, "--json");
 
   const io::FileBytes file = io::read_file(options.input);
@@ -116,11 +107,11 @@ int run(const Options& options) {
   const std::size_t level = content.mesh.level();
   const Work work{std::move(content.mesh), std::move(sequence), level, options.filter == "nearest" ? Filter::nearest : Filter::linear};
 
-  Json document = validation::document_head("adapt", {input_of(options.input, "progressive mesh")});
-  if (!options.texture.empty())
-    document["inputs"].push_back(validation::document_head("adapt", {input_of(options.texture, "texture")})["inputs"][0]);
-  adapt::AdaptCounts counts;
-  Image map, texture;
+  std::vector<validation::VerifyInput> inputs = {file_input(options.input, "progressive mesh")};
+  if (!options.texture.empty()) inputs.push_back(file_input(options.texture, "texture"));
+  Json document = validation::document_head("adapt", inputs);
+  adapt::AdaptCounts counts;  // of the texture where both are adapted
+  Image map;
   if (!options.map.empty()) map = adapted(work, adapt::identity_map(size.width, size.height), "map", console, counts);
   if (!options.output.empty()) materials[0].texture = adapted(work, materials[0].texture, "texture", console, counts);
   document["faces"] = work.mesh.face_count();
@@ -138,13 +129,17 @@ int run(const Options& options) {
   }
   console.line(fmt::format("level {} of {}: {} faces; {} adaptations in {} packs", grouped(level), grouped(work.mesh.split_count()),
                            grouped(work.mesh.face_count()), grouped(counts.adaptations), grouped(counts.packs)));
-  for (const std::string& written : {options.map, options.output})
-    if (!written.empty()) console.line("wrote " + written);
+  const bool reached = work.mesh.face_count() <= static_cast<std::size_t>(options.faces);
+  if (!reached)
+    console.line(fmt::format("the base has more than the {} faces asked for", grouped(static_cast<std::uint64_t>(options.faces))));
+  for (const std::filesystem::path& path : written) console.line("wrote " + path.string());
   validation::RunInfo info = validation::current_run(options.common.start);
-  info.paths = {options.input, options.texture, options.output, options.map};
+  info.paths = {options.input};
+  if (!options.texture.empty()) info.paths.push_back(options.texture);
+  for (const std::filesystem::path& path : written) info.paths.push_back(path.string());
   document["run"] = validation::to_json(info);
   write_document(options.common, document);
-  return kExitDone;
+  return reached ? kExitDone : kExitWarning;
 }
 
 }  // namespace

@@ -20,16 +20,6 @@ namespace fs = std::filesystem;
 using validation::VerifyInput;
 using validation::VerifyModel;
 
-VerifyInput file_input(const std::string& path, const std::string& role) {
-  VerifyInput input;
-  input.name = fs::path(path).filename().string();
-  input.path = path;
-  input.role = role;
-  input.sha256 = io::file_sha256(path);
-  input.attribution = attribution_of(input.sha256);
-  return input;
-}
-
 Material textured(Image texture) {
   Material material;
   material.texture = std::make_shared<const Image>(std::move(texture));
@@ -80,6 +70,16 @@ void stand_in_for_textures(VerifyModel& model) {
 }
 
 }  // namespace
+
+VerifyInput file_input(const std::string& path, const std::string& role) {
+  VerifyInput input;
+  input.name = fs::path(path).filename().string();
+  input.path = path;
+  input.role = role;
+  input.sha256 = io::file_sha256(path);
+  input.attribution = attribution_of(input.sha256);
+  return input;
+}
 
 void add_model_options(CLI::App& verb, ModelOptions& options) {
   verb.add_option("--texture", options.texture, "Image that replaces the model's own textures")->type_name("IMG")->check(not_empty());

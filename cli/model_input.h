@@ -36,6 +36,9 @@ auto naming_the_model(const std::string& path, const Draw& draw) {
   }
 }
 
+/// A file as a document names it: name, sha256, role, and whom to credit. InputError where it cannot be read.
+[[nodiscard]] validation::VerifyInput file_input(const std::string& path, const std::string& role);
+
 /// Adds what the model was read from besides its own file: material libraries, buffers, textures.
 void add_side_files(CallFiles& files, const io::LoadedModel& model);
 

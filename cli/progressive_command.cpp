@@ -8,7 +8,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
-#include "cli/attribution.h"
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
@@ -40,16 +39,6 @@ bool is_epm(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   return extension == ".epm";
-}
-
-validation::VerifyInput input_of(const std::string& path, const std::string& role) {
-  validation::VerifyInput input{.name = std::filesystem::path(path).filename().string(),
-                                .sha256 = io::file_sha256(path),
-                                .path = path,
-                                .role = role,
-                                .attribution = ""};
-  input.attribution = attribution_of(input.sha256);
-  return input;
 }
 
 void finish(const Options& options, Console& console, Json document) {
@@ -98,9 +87,10 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   if (!reached)
     console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused",
                              grouped(static_cast<std::uint64_t>(options.faces))));
-  if (const std::string attribution = input_of(options.input, "model").attribution; !attribution.empty()) console.line("by " + attribution);
+  if (const std::string attribution = file_input(options.input, "model").attribution; !attribution.empty())
+    console.line("by " + attribution);
   console.line("wrote " + options.output);
-  Json document = validation::document_head("progressive", {input_of(options.input, "model")});
+  Json document = validation::document_head("progressive", {file_input(options.input, "model")});
   document["metric"] = options.metric;
   document["records"] = made.data.splits.size();
   document["faces_base"] = made.data.base_faces;
@@ -139,7 +129,7 @@ int take_level(const Options& options, Console& console, CallFiles& files) {
   if (!reached)
     console.line(fmt::format("the base has more than the {} faces asked for", grouped(static_cast<std::uint64_t>(options.faces))));
   console.line("wrote " + options.output);
-  Json document = validation::document_head("progressive", {input_of(options.input, "progressive mesh")});
+  Json document = validation::document_head("progressive", {file_input(options.input, "progressive mesh")});
   document["metric"] = nullptr;
   document["records"] = content.mesh.split_count();
   document["faces_base"] = content.mesh.face_count_at(0);

@@ -12,9 +12,9 @@ enum class AdaptDirection : std::uint8_t {
   to_after,   ///< its inverse: backward adaptation
 };
 
-/// The image of texture coordinate `p`; nothing where no cell holds it. In double: within 2^-45 of the largest coordinate for cells whose
-/// height is at least 2^-6 of their longest edge, and inverse to the other direction to that. On an edge of cells both give the same point
-/// up to rounding; the lower cell is taken.
+/// The image of texture coordinate `p`; nothing where no cell holds it. In double; for coordinates in [0, 1] a round trip errs by less than
+/// 2^-46 over the least doubled area of the cells (tests/adapt/cell_map_test.cpp). On an edge of cells both give the same point up to
+/// rounding; the lower cell is taken.
 [[nodiscard]] std::optional<Vec2d> map_point(const RingCells& cells, AdaptDirection direction, const Vec2d& p);
 
 }  // namespace etalon::adapt

@@ -13,7 +13,7 @@ namespace etalon::adapt {
 namespace {
 
 constexpr std::size_t kMostCorners = 16'000;
-constexpr double kShares[] = {1, 0.75, 0.5, 0.25, 0.125, 0.0625, 0};
+constexpr double kPlaceShares[] = {1, 0.75, 0.5, 0.25, 0.125, 0}, kCrossingShares[] = {1, 0.75, 0.5, 0.25, 0.125, 0.0625, 0};
 
 double cross(const Vec2d& a, const Vec2d& b) { return a.x * b.y - a.y * b.x; }
 
@@ -177,14 +177,14 @@ std::optional<RingCells> make_ring_cells(const CollapseRing& ring) {
   if (!is_unfolded(ring)) throw InputError("ring of a collapse: expected counter-clockwise triangles, got a fold");
   const Vec2d from(ring.uv_of_u), way = new_place_of_u(ring) - from;
   RingCells result;
-  for (const double u_share : kShares) {
-    if (u_share == 0.0625 || (ring.on_curve && u_share != 1)) continue;  // the curve's new edge is where u goes, and the other side's u too
+  for (const double u_share : kPlaceShares) {
+    if (ring.on_curve && u_share != 1) break;  // the curve's new edge is where u goes, and the other side's u too
     const Vec2f place(from + u_share * way);
     Overlay overlay(ring, place);
     if (!overlay.locate()) continue;
     overlay.find_crossings();
     result.u_kept = u_share;
-    for (const double share : kShares) {
+    for (const double share : kCrossingShares) {
       result.crossings_kept = share;
       result.nodes = place_nodes(ring, place, overlay.crossings(), share);
       if (triangulate(overlay, result)) return result;

@@ -19,16 +19,6 @@ void make_swirl(const ScratchFolder& folder) {
               .exit_code == 0);
 }
 
-void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions) {
-  const std::vector<std::string> before = folder.listing();
-  const CommandResult result = run_etalon(arguments, {.folder = folder.path()});
-  CAPTURE(result.err);
-  CHECK(result.exit_code == exit_code);
-  REQUIRE(result.error_lines().size() == 1);
-  CHECK(result.error_lines()[0].find(mentions) != std::string::npos);
-  CHECK(folder.listing() == before);
-}
-
 }  // namespace
 
 TEST_CASE("adapt: a level with its texture and its map; the same bytes for 1 and 7 threads") {

@@ -10,26 +10,6 @@
 
 using namespace etalon::test;
 
-namespace {
-
-void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions,
-                   CommandOptions options = {}) {
-  std::string shown;
-  for (const std::string& argument : arguments) shown += argument + " ";
-  CAPTURE(shown);
-  const std::vector<std::string> before = folder.listing();
-  options.folder = folder.path();
-  const CommandResult result = run_etalon(arguments, options);
-  CAPTURE(result.err);
-  CHECK(result.exit_code == exit_code);
-  REQUIRE(result.error_lines().size() == 1);
-  CHECK(result.error_lines()[0].rfind("etalon: error: ", 0) == 0);
-  CHECK(result.error_lines()[0].find(mentions) != std::string::npos);
-  CHECK(folder.listing() == before);
-}
-
-}  // namespace
-
 TEST_CASE("usage: 64") {
   const ScratchFolder folder;
   folder.file("square.obj", square_obj());

@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -119,6 +121,22 @@ std::vector<std::string> ScratchFolder::listing() const {
   for (const auto& entry : fs::recursive_directory_iterator(path_)) names.push_back(fs::relative(entry.path(), path_).string());
   std::sort(names.begin(), names.end());
   return names;
+}
+
+void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions,
+                   CommandOptions options) {
+  std::string shown;
+  for (const std::string& argument : arguments) shown += argument + " ";
+  CAPTURE(shown);
+  const std::vector<std::string> before = folder.listing();
+  options.folder = folder.path();
+  const CommandResult result = run_etalon(arguments, options);
+  CAPTURE(result.err);
+  CHECK(result.exit_code == exit_code);
+  REQUIRE(result.error_lines().size() == 1);
+  CHECK(result.error_lines()[0].rfind("etalon: error: ", 0) == 0);
+  CHECK(result.error_lines()[0].find(mentions) != std::string::npos);
+  CHECK(folder.listing() == before);
 }
 
 std::string read_text(const fs::path& path) {

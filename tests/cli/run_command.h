@@ -42,6 +42,10 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
+/// Checks that the command ends with this exit code and one line "etalon: error: …" that mentions `mentions`, and leaves the folder as it was.
+void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions,
+                   CommandOptions options = {});
+
 [[nodiscard]] std::string read_text(const std::filesystem::path& path);
 
 /// A square of two triangles with texture coordinates, without a material.

@@ -20,19 +20,6 @@ json checked_document(const CommandResult& result, const std::string& schema_nam
   return document;
 }
 
-void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions) {
-  std::string shown;
-  for (const std::string& argument : arguments) shown += argument + " ";
-  CAPTURE(shown);
-  const std::vector<std::string> before = folder.listing();
-  const CommandResult result = run_etalon(arguments, {.folder = folder.path()});
-  CAPTURE(result.err);
-  CHECK(result.exit_code == exit_code);
-  REQUIRE(result.error_lines().size() == 1);
-  CHECK(result.error_lines()[0].find(mentions) != std::string::npos);
-  CHECK(folder.listing() == before);
-}
-
 /// Three triangles on one edge.
 std::string book_obj() { return "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 -1 0\nf 1 2 3\nf 1 2 4\nf 2 1 5\n"; }
 

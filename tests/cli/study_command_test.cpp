@@ -17,16 +17,6 @@ void make_knot(const ScratchFolder& folder) {
   REQUIRE(run_etalon({"make", "knot", "--faces", "2000", "-o", "knot.ply"}, {.folder = folder.path()}).exit_code == 0);
 }
 
-void check_refused(const std::vector<std::string>& arguments, int exit_code, const ScratchFolder& folder, const std::string& mentions) {
-  const std::vector<std::string> before = folder.listing();
-  const CommandResult result = run_etalon(arguments, {.folder = folder.path()});
-  CAPTURE(result.err);
-  CHECK(result.exit_code == exit_code);
-  REQUIRE(result.error_lines().size() == 1);
-  CHECK(result.error_lines()[0].find(mentions) != std::string::npos);
-  CHECK(folder.listing() == before);
-}
-
 }  // namespace
 
 TEST_CASE("study kim on a mesh of one's own: a folder, a document that keeps its schema, the same for 1 and 3 threads") {
