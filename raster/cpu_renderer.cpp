@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/base/float_environment.h"
 #include "core/base/parallel.h"
+#include "raster/cpu_map.h"
 #include "raster/fast/tile_shader.h"
 #include "raster/tile_bins.h"
 #include "raster/visibility.h"
@@ -63,6 +65,10 @@ std::vector<Image> CpuRenderer::render(const DrawList& list, const Frame& frame)
   std::vector<Image> images;
   render_into(list, frame, images);
   return images;
+}
+
+std::unique_ptr<ResidentMap> CpuRenderer::make_map(Image map, const MapState& state) {
+  return evaluation_ == Evaluation::vectorised ? make_cpu_map(std::move(map), state) : make_rendered_map(*this, std::move(map), state);
 }
 
 void CpuRenderer::render_into(const DrawList& list, const Frame& frame, std::vector<Image>& images) {

@@ -18,7 +18,9 @@ class CpuRenderer : public Renderer {
   [[nodiscard]] bool supports(const TargetSpec&) const override { return true; }
   [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override;
 
-  /// The same into images of an earlier call: those of the right format and size keep their memory, which saves the system's work of
+  [[nodiscard]] std::unique_ptr<ResidentMap> make_map(Image map, const MapState& state) override;
+
+  /// render() into images of an earlier call: those of the right format and size keep their memory, which saves the system's work of
   /// making fresh pages. Their bytes are unspecified if it throws.
   void render_into(const DrawList& list, const Frame& frame, std::vector<Image>& images);
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <span>
 
 #include "core/adapt/adapt_sequence.h"
@@ -16,19 +15,19 @@ namespace etalon::adapt {
 
 struct AdaptOptions {
   Filter filter = Filter::linear;  ///< of the lookups in the map before
-  /// Called after each pack with packs done and in all; an exception stops the work and leaves `map` between levels.
+  /// Called after some packs with packs done and in all; an exception stops the work and leaves `map` as it was.
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
 struct AdaptCounts {
   std::size_t adaptations = 0, packs = 0;
-  std::size_t texels = 0;  ///< written
+  std::uint64_t texels = 0;  ///< written; 0 where the renderer does not count
 };
 
-/// The cells of `splits` (disjoint regions, see pack_splits) as one drawing from the map as it is: corners on the sub-texel grid of `state`,
-/// their coordinates in the map before.
-[[nodiscard]] DrawList cell_list(const AdaptSequence& sequence, std::span<const std::uint32_t> splits, AdaptDirection direction,
-                                 std::shared_ptr<const Image> map, Filter filter, const RasterState& state);
+/// The cells of `splits` (disjoint regions, see pack_splits), a group each, as one pass over a map of that size: corners on the sub-texel grid of
+/// `state`, their coordinates in the map before. Where snapping lets two cells of a split have a texel, the lower one is drawn last.
+[[nodiscard]] MapPass cell_pass(const AdaptSequence& sequence, std::span<const std::uint32_t> splits, AdaptDirection direction, int width,
+                                int height, const RasterState& state);
 
 /// Takes the map from level `from` to level `to`, down or up. A texel changes where a cell covers its centre; one that no cell covers keeps its
 /// value. UnavailableError where the renderer does not support the map's format.

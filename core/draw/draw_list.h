@@ -62,6 +62,9 @@ void validate(const Frame& frame);
 /// Throws InputError naming the first primitive (and what, expected, got) that breaks docs/contract.md#input for this frame.
 void validate(const DrawList& list, const Frame& frame);
 
+/// The same but for what needs a look at every texel of the images: for lists whose images are known to be good.
+void validate_geometry(const DrawList& list, const Frame& frame);
+
 /// The oracle's and OpenGL's common view of tiny numbers and zeros: |a| < 2^-40 becomes +0, and so does −0.
 [[nodiscard]] constexpr float canonical(float a) { return (a < 0x1p-40f && a > -0x1p-40f) ? 0.0f : a; }
 

@@ -1,10 +1,12 @@
 // What both renderers implement, and a user's own may: a draw list in, images out. Whatever drives drawing takes a Renderer&.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/draw/draw_list.h"
+#include "core/draw/resident_map.h"
 
 namespace etalon {
 
@@ -23,6 +25,10 @@ class Renderer {
   /// Draws the whole list, once; returns one image per target of the frame, in order.
   /// InputError: validate() refuses. UnavailableError: a target or a state that this renderer does not support, or the device's memory is full.
   [[nodiscard]] virtual std::vector<Image> render(const DrawList& list, const Frame& frame) = 0;
+
+  /// Takes a map of colours (any format but uint32) for passes over itself; what they leave is what render() of each pass's list would give.
+  /// InputError, UnavailableError: as render().
+  [[nodiscard]] virtual std::unique_ptr<ResidentMap> make_map(Image map, const MapState& state);
 };
 
 }  // namespace etalon

@@ -25,8 +25,9 @@ struct Run {
 
 class TileShader {
  public:
-  TileShader(const RunContext& context, const Tile& tile, std::span<const std::uint32_t> ids, std::vector<Image>& images)
-      : context_(context), tile_(tile), ids_(ids), images_(images), values_(context) {
+  TileShader(const RunContext& context, const Tile& tile, std::span<const std::uint32_t> ids, std::vector<Image>& images,
+             std::vector<CoveredRun>* covered)
+      : context_(context), tile_(tile), ids_(ids), images_(images), covered_(covered), values_(context) {
     const Frame& frame = context.frame;
     needs_.depth = frame.state.depth_test;
     for (const TargetSpec& target : frame.targets) {
@@ -96,6 +97,7 @@ class TileShader {
   }
 
   void shade(const Run& run) {
+    if (covered_ != nullptr) covered_->push_back({tile_.x0 + run.column, tile_.y0 + run.row, run.lanes});
     begin(run);
     for (std::size_t n = 0; n < images_.size(); ++n) shade_target(run, n);
   }
@@ -183,6 +185,7 @@ class TileShader {
   }
 
   void clear(int column, int row, int lanes) {
+    if (covered_ != nullptr) return;
     for (std::size_t n = 0; n < images_.size(); ++n) {
       const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(context_.frame.targets[n].format));
       std::memcpy(images_[n].texel(tile_.x0 + column, tile_.y0 + row), context_.clear_row[n].data(),
@@ -194,6 +197,7 @@ class TileShader {
   const Tile& tile_;
   std::span<const std::uint32_t> ids_;
   std::vector<Image>& images_;
+  std::vector<CoveredRun>* covered_;
   SampleNeeds needs_;
   EvaluationCounters counters_;
   TileSamples samples_;
@@ -208,8 +212,9 @@ class TileShader {
 
 }  // namespace
 
-EvaluationCounters draw_tile(const RunContext& context, const Tile& tile, std::span<const std::uint32_t> ids, std::vector<Image>& images) {
-  return std::make_unique<TileShader>(context, tile, ids, images)->draw();  // too large for every thread's stack
+EvaluationCounters draw_tile(const RunContext& context, const Tile& tile, std::span<const std::uint32_t> ids, std::vector<Image>& images,
+                             std::vector<CoveredRun>* covered) {
+  return std::make_unique<TileShader>(context, tile, ids, images, covered)->draw();  // too large for every thread's stack
 }
 
 }  // namespace etalon::raster::fast

@@ -11,7 +11,14 @@
 
 namespace etalon::raster::fast {
 
-/// Draws the triangles `ids` (ascending) into the tile of all images, which are the frame's targets in order.
-EvaluationCounters draw_tile(const RunContext& context, const Tile& tile, std::span<const std::uint32_t> ids, std::vector<Image>& images);
+/// Texels of one row that some triangle covered.
+struct CoveredRun {
+  int x, y, texels;
+};
+
+/// Draws the triangles `ids` (ascending) into the tile of all images, which are the frame's targets in order. With
+/// `covered` the covered runs are appended to it and all other texels keep their bytes.
+EvaluationCounters draw_tile(const RunContext& context, const Tile& tile, std::span<const std::uint32_t> ids, std::vector<Image>& images,
+                             std::vector<CoveredRun>* covered = nullptr);
 
 }  // namespace etalon::raster::fast

@@ -1,0 +1,79 @@
+#include "core/draw/resident_map.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "core/draw/renderer.h"
+
+namespace etalon {
+namespace {
+
+constexpr int kMostGuard = 2048, kMostFrame = 16384;
+
+class RenderedMap : public ResidentMap {
+ public:
+  RenderedMap(Renderer& renderer, Image map, const MapState& state)
+      : renderer_(renderer), state_(state), map_(std::move(map)), frame_(map_frame(map_.width(), map_.height(), map_.format(), state)) {
+    frame_.targets.push_back({.content = TargetContent::triangle_id, .format = kR32ui});
+  }
+
+  void apply(std::span<const MapPass> passes) override {
+    for (const MapPass& pass : passes) {
+      const std::shared_ptr<const Image> unowned(std::shared_ptr<const Image>(), &map_);  // the list lives shorter than the map
+      const std::vector<Image> drawn = renderer_.render(map_pass_list(pass, unowned, state_.filter), frame_);
+      copy_drawn(drawn[0], drawn[1]);
+    }
+  }
+
+  Image read_back() override { return map_; }
+  std::uint64_t texels_written() const override { return written_; }
+
+ private:
+  void copy_drawn(const Image& color, const Image& ids) {
+    const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(map_.format()));
+    const auto* id = ids.channels<std::uint32_t>(0, 0);
+    const std::byte* const from = color.bytes().data();
+    std::byte* const to = map_.bytes().data();
+    for (std::size_t n = 0; n < map_.texel_count(); ++n) {
+      if (id[n] == kNoTriangle) continue;
+      std::memcpy(to + n * texel_bytes, from + n * texel_bytes, texel_bytes);
+      ++written_;
+    }
+  }
+
+  Renderer& renderer_;
+  MapState state_;
+  Image map_;
+  Frame frame_;
+  std::uint64_t written_ = 0;
+};
+
+}  // namespace
+
+Frame map_frame(int width, int height, PixelFormat format, const MapState& state) {
+  const int guard = std::clamp((kMostFrame - std::max(width, height)) / 2, 0, kMostGuard);
+  Frame frame{.width = width, .height = height, .guard = guard, .state = state.raster, .targets = {{.format = format}}};
+  frame.state.depth_test = false, frame.state.cull = CullMode::none;
+  return frame;
+}
+
+DrawList map_pass_list(const MapPass& pass, std::shared_ptr<const Image> map, Filter filter) {
+  DrawList list{.vertices = pass.vertices, .triangles = pass.triangles, .draws = {}, .images = {std::move(map)}, .source_faces = {}};
+  list.draws = {{.triangle_count = static_cast<std::uint32_t>(pass.triangles.size()),
+                 .shading = Shading::texture,
+                 .texture = 0,
+                 .sampler = {filter, Wrap::clamp, Wrap::clamp},
+                 .map_sampler = {}}};
+  return list;
+}
+
+std::unique_ptr<ResidentMap> make_rendered_map(Renderer& renderer, Image map, const MapState& state) {
+  return std::make_unique<RenderedMap>(renderer, std::move(map), state);
+}
+
+std::unique_ptr<ResidentMap> Renderer::make_map(Image map, const MapState& state) {
+  return make_rendered_map(*this, std::move(map), state);
+}
+
+}  // namespace etalon
