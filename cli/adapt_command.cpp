@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <CLI/Config.hpp>
@@ -31,7 +33,7 @@ using Json = nlohmann::ordered_json;
 using validation::grouped;
 
 struct Options {
-  std::string input, texture, output, map, size = "1024", filter = "linear";
+  std::string input, texture, output, map, size = "1024", format = "float32", filter = "linear";
   std::int64_t faces = 0;
   CommonOptions common;
 };
@@ -59,26 +61,49 @@ Json map_errors(const Work& work, const Image& map) {
   for (int y = stride(map.height()) / 2; y < map.height(); y += stride(map.height()))
     for (int x = stride(map.width()) / 2; x < map.width(); x += stride(map.width())) {
       const Vec2d truth = work.sequence.follow({(x + 0.5) / map.width(), (y + 0.5) / map.height()}, work.level, work.sequence.size());
-      const auto* const at = map.channels<float>(x, y);
-      const double dx = (at[0] - truth.x) * map.width(), dy = (at[1] - truth.y) * map.height();
+      const Vec2d at = adapt::map_coordinate(map, x, y);
+      const double dx = (at.x - truth.x) * map.width(), dy = (at.y - truth.y) * map.height();
       errors.push_back(std::sqrt(dx * dx + dy * dy));
     }
   std::sort(errors.begin(), errors.end());
   return {{"median", errors[errors.size() / 2]}, {"p99", errors[errors.size() * 99 / 100]}, {"max", errors.back()}};
 }
 
+constexpr std::pair<const char*, ChannelType> kFormats[] = {
+    {"float32", ChannelType::float32}, {"half", ChannelType::half}, {"unorm16", ChannelType::unorm16}, {"unorm8", ChannelType::unorm8}};
+
+ChannelType format_named(const std::string& name) {
+  return std::find_if(std::begin(kFormats), std::end(kFormats), [&](const auto& format) { return name == format.first; })->second;
+}
+
+// PNG has no two channels: a third one of zeros is added, which lookups through the map do not read.
+Image with_third_channel(const Image& map) {
+  Image result(map.width(), map.height(), {map.format().type, 3});
+  const auto channel_bytes = static_cast<std::size_t>(bytes_per_channel(map.format().type));
+  for (std::size_t n = 0; n < map.texel_count(); ++n)
+    std::memcpy(result.bytes().data() + n * 3 * channel_bytes, map.bytes().data() + n * 2 * channel_bytes, 2 * channel_bytes);
+  return result;
+}
+
+void write_map(const std::string& path, const Image& map) {
+  const bool floating = map.format().type == ChannelType::float32 || map.format().type == ChannelType::half;
+  io::write_image(path, floating ? map : with_third_channel(map));
+}
+
 void require_options(const Options& options) {
   if (options.output.empty() && options.map.empty()) throw UsageError("adapt: expected --map FILE.exr, or --texture IMG with -o MODEL");
   if (options.output.empty() != options.texture.empty()) throw UsageError("adapt: --texture IMG and -o MODEL go together");
   if (options.output == "-" || options.map == "-") throw UsageError("adapt: expected files, got '-'");
-  if (!options.map.empty() && std::filesystem::path(options.map).extension() != ".exr")
-    throw UsageError(fmt::format("adapt: --map {}: expected a name ending in .exr: the map is two float32 a texel", options.map));
+  const char* const extension = options.format.starts_with("unorm") ? ".png" : ".exr";
+  if (!options.map.empty() && std::filesystem::path(options.map).extension() != extension)
+    throw UsageError(fmt::format("adapt: --map {}: expected a name ending in {} for --format {}", options.map, extension, options.format));
 }
 
 int run(const Options& options) {
   apply(options.common);
   require_options(options);
   const FrameSize size = parse_size(options.size);
+  const ChannelType format = format_named(options.format);
   for (const std::string& file : {options.output, options.map, options.common.json}) require_writable_file(file);
   Console console(console_options(options.common));
   CallFiles files;
@@ -112,15 +137,19 @@ int run(const Options& options) {
   Json document = validation::document_head("adapt", inputs);
   adapt::AdaptCounts counts;  // of the texture where both are adapted
   Image map;
-  if (!options.map.empty()) map = adapted(work, adapt::identity_map(size.width, size.height), "map", console, counts);
+  if (!options.map.empty()) map = adapted(work, adapt::identity_map(size.width, size.height, format), "map", console, counts);
   if (!options.output.empty()) materials[0].texture = adapted(work, materials[0].texture, "texture", console, counts);
   document["faces"] = work.mesh.face_count();
   document["adaptations"] = counts.adaptations;
   document["packs"] = counts.packs;
+  const std::size_t unnamed = map.empty() ? 0 : adapt::unnamed_texels(size.width, size.height, format);
+  document["format"] = options.format;
+  document["filter"] = options.filter;
+  document["unnamed_texels"] = unnamed;
   document["map_error_texels"] = map.empty() ? Json() : map_errors(work, map);
   {
     const FinishWriting writing;
-    if (!map.empty()) io::write_image(options.map, map);
+    if (!map.empty()) write_map(options.map, map);
     if (!options.output.empty()) {
       Mesh mesh = work.mesh.mesh();
       mesh.face_materials.clear();
@@ -132,6 +161,11 @@ int run(const Options& options) {
   const bool reached = work.mesh.face_count() <= static_cast<std::size_t>(options.faces);
   if (!reached)
     console.line(fmt::format("the base has more than the {} faces asked for", grouped(static_cast<std::uint64_t>(options.faces))));
+  if (unnamed > 0)
+    print_warning(
+        fmt::format("--format {} cannot name {} of the {} texels of {}x{}: detail is lost before anything is adapted; float32 and "
+                    "unorm16 name all up to 8192",
+                    options.format, grouped(unnamed), grouped(map.texel_count()), size.width, size.height));
   for (const std::filesystem::path& path : written) console.line("wrote " + path.string());
   validation::RunInfo info = validation::current_run(options.common.start);
   info.paths = {options.input};
@@ -139,7 +173,7 @@ int run(const Options& options) {
   for (const std::filesystem::path& path : written) info.paths.push_back(path.string());
   document["run"] = validation::to_json(info);
   write_document(options.common, document);
-  return reached ? kExitDone : kExitWarning;
+  return reached && unnamed == 0 ? kExitDone : kExitWarning;
 }
 
 }  // namespace
@@ -160,9 +194,12 @@ Verb add_adapt(CLI::App& root) {
       ->check(not_empty());
   app->add_option("-o,--output", options->output, "The level's model with the adapted texture (.obj .glb .ply)")->type_name("MODEL");
   app->add_option("--map", options->map,
-                  "The indexing map of the level: where on the finest level's texture each texel looks (.exr, float32)")
-      ->type_name("OUT.exr");
+                  "The indexing map of the level: where on the finest level's texture each texel looks (.exr; .png for --format unorm…)")
+      ->type_name("OUT.exr|.png");
   app->add_option("--size", options->size, "Of the map, WxH or one number (default 1024)")->type_name("WxH");
+  app->add_option("--format", options->format, "Of the map: float32 (default), half, unorm16 or unorm8")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"float32", "half", "unorm16", "unorm8"}));
   app->add_option("--filter", options->filter, "Of each adaptation's lookup: linear (default) or nearest")
       ->type_name("KIND")
       ->check(CLI::IsMember({"linear", "nearest"}));

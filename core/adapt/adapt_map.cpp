@@ -31,16 +31,6 @@ void add_cells(const RingCells& cells, AdaptDirection direction, int width, int 
 
 }  // namespace
 
-Image identity_map(int width, int height) {
-  Image map(width, height, kRg32f);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      auto* const channels = map.channels<float>(x, y);
-      channels[0] = static_cast<float>((x + 0.5) / width), channels[1] = static_cast<float>((y + 0.5) / height);
-    }
-  return map;
-}
-
 MapPass cell_pass(const AdaptSequence& sequence, std::span<const std::uint32_t> splits, AdaptDirection direction, int width, int height,
                   const RasterState& state) {
   MapPass pass;

@@ -5,13 +5,11 @@
 #include <span>
 
 #include "core/adapt/adapt_sequence.h"
+#include "core/adapt/map_format.h"
 #include "core/draw/renderer.h"
 #include "core/draw/state.h"
 
 namespace etalon::adapt {
-
-/// The map that names every texel's own centre, ((x + ½)/width, (y + ½)/height), as two float32 (sec. 3.4).
-[[nodiscard]] Image identity_map(int width, int height);
 
 struct AdaptOptions {
   Filter filter = Filter::linear;  ///< of the lookups in the map before

@@ -7,9 +7,8 @@
 #include <memory>
 
 #include "core/draw/scene.h"
-#include "core/mesh/weld.h"
-#include "core/procedural/swirl.h"
 #include "raster/cpu_renderer.h"
+#include "tests/adapt/level_fixture.h"
 #include "validation/metrics/image_difference.h"
 
 using namespace etalon;
@@ -17,30 +16,11 @@ using namespace etalon::adapt;
 
 namespace {
 
-// The paper's swirl and its levels (Figure 15), made once.
-struct Swirl {
-  procedural::Model model = procedural::make_swirl({.faces = 7688, .texture_size = 512});
-  progressive::ProgressiveMesh mesh;
-  AdaptSequence sequence;
-  Swirl() : mesh(levels_of(model.mesh)), sequence(mesh) {}
-  static progressive::ProgressiveData levels_of(const Mesh& input) {
-    simplify::SimplifyOptions options;
-    options.metric = simplify::MetricName::qem5;
-    options.target_faces = 399;
-    return progressive::make_progressive(welded_by_position(input), options).data;
-  }
-};
-
-Swirl& swirl() {
-  static Swirl made;
-  return made;
-}
-
 Image picture(const Mesh& mesh, const Material& material) {
   Frame frame{.width = 256, .height = 256, .guard = 0, .state = {}, .targets = {{}}};
   frame.state.depth_test = true;
   raster::CpuRenderer renderer;
-  const Camera camera = named_view("front", bounding_box(swirl().model.mesh), 256, 256);
+  const Camera camera = named_view("front", bounding_box(test::swirl().model.mesh), 256, 256);
   return renderer.render(make_scene(mesh, {material}, camera, frame), frame).front();
 }
 
@@ -48,7 +28,7 @@ double psnr_of(const Image& a, const Image& b) { return validation::measure_diff
 
 // Distances, in texels of the map, from where the map's texels point to where the cells' chain leads.
 std::vector<double> errors_against_chain(const Image& map, std::size_t level) {
-  const AdaptSequence& sequence = swirl().sequence;
+  const AdaptSequence& sequence = test::swirl().sequence;
   std::vector<double> errors;
   for (int y = 3; y < map.height(); y += 11)
     for (int x = 5; x < map.width(); x += 13) {
@@ -63,7 +43,7 @@ std::vector<double> errors_against_chain(const Image& map, std::size_t level) {
 }  // namespace
 
 TEST_CASE("adapt: the swirl at 399 faces keeps its picture, through an indexing map and as a texture") {
-  Swirl& s = swirl();
+  test::ModelLevels& s = test::swirl();
   const auto texture = std::make_shared<const Image>(s.model.texture);
   const Sampler linear{Filter::linear, Wrap::clamp, Wrap::clamp};
   Image map = identity_map(512, 512), adapted = s.model.texture;
@@ -88,7 +68,7 @@ TEST_CASE("adapt: the swirl at 399 faces keeps its picture, through an indexing 
 }
 
 TEST_CASE("adapt: the map follows the exact chain, and comes back") {
-  Swirl& s = swirl();
+  test::ModelLevels& s = test::swirl();
   Image map = identity_map(512, 512);
   raster::CpuRenderer renderer;
   (void)adapt_map(renderer, s.sequence, s.sequence.size(), 0, map);
@@ -103,7 +83,7 @@ TEST_CASE("adapt: the map follows the exact chain, and comes back") {
 }
 
 TEST_CASE("adapt: the chain is its own inverse to 2^-30 texel") {
-  Swirl& s = swirl();
+  test::ModelLevels& s = test::swirl();
   for (int y = 0; y < 512; y += 37)
     for (int x = 0; x < 512; x += 29) {
       const Vec2d p((x + 0.5) / 512, (y + 0.5) / 512),
@@ -113,7 +93,7 @@ TEST_CASE("adapt: the chain is its own inverse to 2^-30 texel") {
 }
 
 TEST_CASE("adapt: packed is one by one, byte for byte, down and up") {
-  Swirl& s = swirl();
+  test::ModelLevels& s = test::swirl();
   raster::CpuRenderer renderer;
   const std::size_t fine = s.sequence.size(), coarse = fine - 300;
   Image packed = identity_map(128, 128), single = packed;

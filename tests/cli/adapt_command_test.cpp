@@ -46,12 +46,40 @@ TEST_CASE("adapt: a level with its texture and its map; the same bytes for 1 and
   CHECK(texture != read_text(folder.path() / "swirl_texture.png"));
 }
 
+TEST_CASE("adapt: every format and filter of the map; one that cannot name the texels is a warning") {
+  const ScratchFolder folder;
+  make_swirl(folder);
+  for (const std::string format : {"float32", "half", "unorm16", "unorm8"})
+    for (const std::string filter : {"linear", "nearest"})
+      for (const int size : {256, 512}) {
+        CAPTURE(format);
+        CAPTURE(filter);
+        CAPTURE(size);
+        const std::string map = format.starts_with("unorm") ? "map.png" : "map.exr";
+        const CommandResult result = run_etalon({"adapt", "swirl.epm", "--faces", "300", "--map", map, "--size", std::to_string(size),
+                                                 "--format", format, "--filter", filter, "--json", "-"},
+                                                {.folder = folder.path()});
+        CAPTURE(result.err);
+        const json document = json::parse(result.out);
+        CHECK(schema_violations(json::parse(read_text(std::string(ETALON_SCHEMAS) + "/adapt.json")), document).empty());
+        const bool named = format != "unorm8" || size == 256;
+        CHECK(result.exit_code == (named ? 0 : 1));
+        CHECK((document["unnamed_texels"] == 0) == named);
+        CHECK((result.err.find("cannot name") != std::string::npos) == !named);
+        CHECK(document["format"] == format);
+        // The steps of unorm8 are 1/255 of the map: lookups in between stay within a few of them.
+        CHECK(document["map_error_texels"]["median"] < (format == "unorm8" ? 4 * size / 255.0 : 1.0));
+      }
+}
+
 TEST_CASE("adapt: what is refused leaves nothing behind") {
   const ScratchFolder folder;
   make_swirl(folder);
   check_refused({"adapt", "swirl.epm", "--faces", "300"}, 64, folder, "--map");
   check_refused({"adapt", "swirl.epm", "--faces", "300", "-o", "level.obj"}, 64, folder, "go together");
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.png"}, 64, folder, ".exr");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--format", "unorm16"}, 64, folder, ".png");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--format", "double"}, 64, folder, "--format");
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--size", "0"}, 64, folder, "size");
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--size", "1000000"}, 64, folder, "1000000");
   check_refused({"adapt", "swirl.obj", "--faces", "300", "--map", "level.exr"}, 4, folder, "swirl.obj");
