@@ -1,10 +1,13 @@
 #include "gpu/gl_renderer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "core/base/error.h"
+#include "gpu/gl_format.h"
+#include "gpu/gl_map.h"
 
 namespace etalon::gpu {
 
@@ -58,6 +61,14 @@ std::vector<Image> GlRenderer::render(const DrawList& list, const Frame& frame) 
   validate(list, frame);
   require_support(frame);
   return exact_ ? exact_->draw(list, frame) : pipeline_->draw(list, frame);
+}
+
+std::unique_ptr<ResidentMap> GlRenderer::make_map(Image map, const MapState& state) {
+  const PixelFormat format = map.format();
+  require_support(map_frame(map.width(), map.height(), format, state));
+  if (exact_ || format.type == ChannelType::srgb8 || stored_target_format(format) != format)
+    return make_rendered_map(*this, std::move(map), state);
+  return std::make_unique<GlMap>(*context_, device_.limits, map, state);
 }
 
 void GlRenderer::require_support(const Frame& frame) const {

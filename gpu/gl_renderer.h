@@ -46,6 +46,9 @@ class GlRenderer : public Renderer {
   /// memory exceeded; any OpenGL error, with the step. The renderer stays usable.
   [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override;
 
+  /// On the device, bytes as render()'s; srgb8, formats of three channels, and all formats in exact mode: by render().
+  [[nodiscard]] std::unique_ptr<ResidentMap> make_map(Image map, const MapState& state) override;
+
   [[nodiscard]] const DeviceInfo& device() const { return device_; }
   [[nodiscard]] ShaderMode shader_mode() const { return exact_ ? ShaderMode::exact : ShaderMode::native; }
 
