@@ -26,6 +26,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fast/plane_kernels.inc"
 #include "raster/fast/texel_kernels.inc"
 #include "raster/fast/nearest_kernels.inc"
+#include "raster/fast/linear_kernels.inc"
 #include "raster/fast/copy_kernels.inc"
 #include "raster/fast/store_kernels.inc"
 #include "raster/fast/depth_kernels.inc"
@@ -56,6 +57,7 @@ const Kernels* kernels() {
       .copy_float_pairs = copy_float_pairs,
       .bilinear = bilinear,
       .bilinear_rgba8 = bilinear_rgba8,
+      .linear_float_pairs = linear_float_pairs,
       .to_unorm = to_unorm,
       .to_float32 = to_float32,
       .depth = depth,
@@ -74,7 +76,8 @@ HWY_AFTER_NAMESPACE();
 namespace etalon::raster::fast {
 
 const Kernels* kernels_for(SimdLevel level) {
-  [[maybe_unused]] const auto runs_here = [](std::int64_t target) { return (hwy::SupportedTargets() & target) != 0; };
+  static const std::int64_t supported = hwy::SupportedTargets();
+  [[maybe_unused]] const auto runs_here = [](std::int64_t target) { return (supported & target) != 0; };
   switch (level) {
     case SimdLevel::baseline: return HWY_STATIC_DISPATCH(kernels)();
     case SimdLevel::ssse3:

@@ -142,6 +142,10 @@ struct Kernels {
   /// The same for four channels of unorm8 texels of four bytes at once; values in [0, 1].
   void (*bilinear_rgba8)(const std::byte* texels, const IntLanes offset[4], const LinearAxis& u, const LinearAxis& v, int lanes,
                          Values result[4]);
+  /// Bilinear values of two float32 a texel as float32, |t| <= largest over the whole image: the fused way of positions(), attribute(),
+  /// linear_axis(), bilinear() and to_float32(), to texels side by side.
+  LaneMask (*linear_float_pairs)(const RunTriangles& run, int lanes, int column, int row, int u, int v, const TexelGrid& grid,
+                                 const float* texels, double largest, std::byte* to);
   /// round(clamp(value, 0, 1)·scale), scale 255 or 65535.
   LaneMask (*to_unorm)(const Values& v, int lanes, double scale, IntLanes& result);
   /// Nearest float32; zeros are +0.

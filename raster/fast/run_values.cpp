@@ -86,6 +86,8 @@ LaneMask RunValues::store_color(const Draw& draw, const TargetSpec& target, std:
   const Image& texture = *context_.list.images[draw.texture];
   const bool copied = draw.sampler.filter == Filter::nearest && copies(texture.format(), target.format);
   if (copied && draw.shading == Shading::texture) return copy_nearest(texture, draw.sampler, target.format, texels);
+  if (draw.shading == Shading::texture && draw.sampler.filter == Filter::linear && texture.format() == kRg32f && target.format == kRg32f)
+    return linear_pairs(texture, draw.sampler, context_.largest[draw.texture], texels);
   interpolate_uv();
   LaneMask undecided = 0;
   if (draw.shading == Shading::indexed) {
@@ -108,6 +110,13 @@ LaneMask RunValues::copy_nearest(const Image& image, const Sampler& sampler, Pix
                                                              context_.layout.offset(kPlaneV), grid, offset_[0]);
   copy_texels(image, offset_[0], lanes_, target, context_.kernels, texels);
   return undecided;
+}
+
+LaneMask RunValues::linear_pairs(const Image& image, const Sampler& sampler, double largest, std::byte* texels) {
+  const TexelGrid grid = {image.width(), image.height(), sampler.wrap_u, sampler.wrap_v};
+  return context_.kernels.linear_float_pairs(triangles_, lanes_, column_, row_, context_.layout.offset(kPlaneU),
+                                             context_.layout.offset(kPlaneV), grid, image.channels<float>(0, 0), std::max(largest, 1.0),
+                                             texels);
 }
 
 // Texel offsets of coordinate_ into offset_[0].

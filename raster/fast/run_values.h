@@ -55,6 +55,7 @@ class RunValues {
   void interpolate_uv();
   LaneMask nearest(const Image& image, const Sampler& sampler);
   LaneMask copy_nearest(const Image& image, const Sampler& sampler, PixelFormat target, std::byte* texels);
+  LaneMask linear_pairs(const Image& image, const Sampler& sampler, double largest, std::byte* texels);
   LaneMask linear(const Image& image, const Sampler& sampler);
   LaneMask look_up(const Image& image, const Sampler& sampler, double largest, int channels);
   void interpolate(const Image& image, double largest, int channels);

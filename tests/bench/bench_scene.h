@@ -7,14 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "core/draw/draw_list.h"
+#include "core/draw/resident_map.h"
 
 namespace etalon::bench {
+
+/// Passes over a map that stays with its renderer.
+struct MapWork {
+  Image map;
+  std::vector<MapPass> packed, one_by_one;  ///< the same groups in the same order
+  Filter filter = Filter::linear;
+};
 
 /// One drawing with one draw, whose vertices all lie inside the frame: an application would need neither guard nor clipping for it.
 struct BenchScene {
   DrawList list;
   Frame frame;
+  std::optional<MapWork> map_work;  ///< instead of list and frame
 };
 
 /// A scene by name, made when its turn comes: the large ones take a second and some hundred megabytes.

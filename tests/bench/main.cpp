@@ -15,6 +15,7 @@
 #include "core/io/inputs.h"
 #include "gpu/context.h"
 #include "gpu/probe.h"
+#include "tests/bench/adapt_scene.h"
 #include "tests/bench/bench_document.h"
 #include "tests/bench/bench_options.h"
 #include "tests/bench/fan_scene.h"
@@ -42,6 +43,9 @@ class PlainReporter : public benchmark::ConsoleReporter {
 std::vector<SceneEntry> all_entries() {
   std::vector<SceneEntry> entries = scene_entries();
   entries.push_back({kFans, "10,000 fans, RG32F map to map", [] { return fan_scene(); }});
+  for (const int size : {1024, 256})
+    entries.push_back({fmt::format("adapt_{}", size), fmt::format("texture adaptation, 7,684 → 499 faces, {}² RG32F, linear", size),
+                       [size] { return adapt_scene(size); }, 1});  // roundings add up over the passes: what they are, etalon verify says
   return entries;
 }
 

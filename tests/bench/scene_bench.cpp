@@ -21,17 +21,11 @@ struct Goal {
 
 // At two threads each, with AVX2.
 constexpr Goal kGoals[] = {
-    {"small_triangles", kRivalDraw, 2},
-    {"head_nearest", kRivalDraw, 2},
-    {"head_linear", kRivalDraw, 1},
-    {"real_head_nearest", kRivalDraw, 2},
-    {"real_head_linear", kRivalDraw, 1},
-    {"screen", kRivalDraw, 1},
-    {"screen_half_texel", kRivalDraw, 1},
-    {"screen_rotated", kRivalDraw, 1},
-    {kFans, kRivalOneFan, 10},
-    {kFans, kRivalManyFans, 4},
-    {"knot", kRivalDraw, 2},
+    {"small_triangles", kRivalDraw, 2},   {"head_nearest", kRivalDraw, 2},     {"head_linear", kRivalDraw, 1},
+    {"real_head_nearest", kRivalDraw, 2}, {"real_head_linear", kRivalDraw, 1}, {"screen", kRivalDraw, 1},
+    {"screen_half_texel", kRivalDraw, 1}, {"screen_rotated", kRivalDraw, 1},   {kFans, kRivalOneFan, 10},
+    {kFans, kRivalManyFans, 4},           {"adapt_1024", kRivalOneByOne, 4},   {"adapt_1024", kRivalPacked, 1.5},
+    {"adapt_256", kRivalOneByOne, 10},    {"adapt_256", kRivalPacked, 3},      {"knot", kRivalDraw, 2},
     {"terrain", kRivalDraw, 2},
 };
 
@@ -83,6 +77,10 @@ std::string ours_at(raster::SimdLevel level) { return "ours, " + to_string(level
 SceneBench::SceneBench(const SceneEntry& entry, BenchScene scene, const SceneBenchOptions& options) : scene_(std::move(scene)) {
   result_.name = entry.name;
   result_.title = entry.title;
+  if (scene_.map_work) {
+    add_map_work(options);
+    return;
+  }
   if (options.only_ours) {
     add(kOurs, [this] { render_at(reference_level(), scene_, images_); });
     return;
@@ -129,6 +127,30 @@ void SceneBench::add_fan_rival(gpu::Context& context) {
   }
   fan_rival_->draw_at_once();
   add_rival_way(kRivalAllFans, ours, fan_rival_->map_at_once(), [this] { fan_rival_->draw_at_once(); });
+}
+
+void SceneBench::add_map_work(const SceneBenchOptions& options) {
+  map_bench_ = std::make_unique<MapBench>(*scene_.map_work, options.context);
+  const auto ours = [this](const char* name, raster::SimdLevel level, const std::vector<MapPass>& passes) {
+    add(name, [this, level, &passes] {
+      raster::set_simd_level(level);
+      map_bench_->apply_ours(passes);
+    });
+  };
+  const MapWork& work = *scene_.map_work;
+  if (options.context != nullptr) {
+    for (const auto& [name, passes] : {std::pair{kRivalOneByOne, &work.one_by_one}, {kRivalPacked, &work.packed}}) {
+      result_.rivals.push_back({name, goal_of(result_.name, name), map_bench_->differing_share()});
+      add(name, [this, passes = passes] { map_bench_->apply_rival(*passes); });
+    }
+  }
+  ours(kOurs, reference_level(), work.packed);
+  if (options.only_ours) return;
+  ours(kOursOneByOne, reference_level(), work.one_by_one);
+  for (const raster::SimdLevel level : options.levels) ours(ours_at(level).c_str(), level, work.packed);
+  result_.work = map_bench_->work();
+  add(kGather, [this] { map_bench_->run_limit(); });
+  result_.gather_method = map_bench_->gather_method();
 }
 
 void SceneBench::add_limits() {

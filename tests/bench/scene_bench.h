@@ -12,6 +12,7 @@
 #include "tests/bench/gl_rival.h"
 #include "tests/bench/limits.h"
 #include "tests/bench/machine.h"
+#include "tests/bench/map_bench.h"
 #include "tests/bench/scene_result.h"
 
 namespace etalon::bench {
@@ -46,6 +47,7 @@ class SceneBench {
   void add_ours(const std::vector<raster::SimdLevel>& levels);
   void add_rival(gpu::Context& context);
   void add_fan_rival(gpu::Context& context);
+  void add_map_work(const SceneBenchOptions& options);
   void add_limits();
   void add_rival_way(const std::string& name, const Image& ours, const Image& theirs, std::function<void()> run);
 
@@ -55,6 +57,7 @@ class SceneBench {
   OtherPrograms others_;
   std::unique_ptr<GlRival> rival_;
   std::unique_ptr<FanRival> fan_rival_;
+  std::unique_ptr<MapBench> map_bench_;
   std::unique_ptr<CopyLimit> copy_;
   std::vector<std::unique_ptr<GatherLimit>> gathers_;
 };

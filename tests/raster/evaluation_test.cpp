@@ -42,13 +42,13 @@ DrawList random_list(Rng& rng, const Frame& frame, bool perspective) {
   }
   DrawList list = list_of(vertices);
   list.images = {noise(rng, 37, 20, kRgba8), noise(rng, 16, 16, kRgba32f), noise(rng, 16, 16, {ChannelType::unorm16, 2}),
-                 noise(rng, 8, 8, {ChannelType::srgb8, 4})};
+                 noise(rng, 8, 8, {ChannelType::srgb8, 4}), noise(rng, 23, 18, kRg32f)};
   list.draws.clear();
   for (std::uint32_t n = 0; n < 6; ++n) {
     Draw draw;
     draw.first_triangle = 4 * n, draw.triangle_count = 4;
     draw.shading = static_cast<Shading>(n % 3);
-    draw.texture = static_cast<std::uint32_t>(rng.below(4)), draw.indexing_map = static_cast<std::uint32_t>(1 + rng.below(2));
+    draw.texture = static_cast<std::uint32_t>(rng.below(5)), draw.indexing_map = static_cast<std::uint32_t>(1 + rng.below(2));
     for (Sampler* sampler : {&draw.sampler, &draw.map_sampler})
       *sampler = {static_cast<Filter>(rng.below(2)), static_cast<Wrap>(rng.below(3)), static_cast<Wrap>(rng.below(3))};
     list.draws.push_back(draw);
@@ -61,6 +61,7 @@ const std::vector<TargetSpec> kEveryTarget = {{TargetContent::color, kRgba8},
                                               {TargetContent::color, {ChannelType::unorm16, 3}},
                                               {TargetContent::color, {ChannelType::half, 4}},
                                               {TargetContent::color, kRgba32f},
+                                              {TargetContent::color, kRg32f},
                                               {TargetContent::coordinate, kRg32f},
                                               {TargetContent::coordinate, {ChannelType::half, 2}},
                                               {TargetContent::barycentrics, {ChannelType::float32, 3}},
