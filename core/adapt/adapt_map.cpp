@@ -14,6 +14,11 @@ namespace {
 // Packs that are handed to the renderer together.
 constexpr std::size_t kPacksAtOnce = 16;
 
+// A split writes kGutterTexels beyond its cells, reads one more, and its plan looks at the charts kGutterTexels beyond what it writes. Two
+// regions grown by this much and apart keep the one from reading, or planning with, what the other changes: 2·3 >= max(2 + 3, 2·2).
+constexpr int kReachWithGutter = 3;
+static_assert(kGutterTexels == 2);
+
 void add_cells(const RingCells& cells, AdaptDirection direction, int width, int height, const RasterState& state, MapPass& pass) {
   const bool forward = direction == AdaptDirection::to_before;
   const auto first = static_cast<std::uint32_t>(pass.vertices.size());
@@ -29,13 +34,27 @@ void add_cells(const RingCells& cells, AdaptDirection direction, int width, int 
   });
 }
 
+// Around the texel's centre and no other's: what lies at all three corners lies at the centre.
+void add_texel(const GutterTexel& texel, const RasterState& state, MapPass& pass) {
+  const auto first = static_cast<std::uint32_t>(pass.vertices.size());
+  for (const Vec2d& corner : {Vec2d(0, 0), Vec2d(1, 0), Vec2d(0.5, 1)}) {
+    RasterVertex v;
+    v.x = snap(texel.x + corner.x, state), v.y = snap(texel.y + corner.y, state);
+    v.uv = texel.uv;
+    pass.vertices.push_back(v);
+  }
+  pass.triangles.push_back({first, first + 1, first + 2});
+}
+
 }  // namespace
 
 MapPass cell_pass(const AdaptSequence& sequence, std::span<const std::uint32_t> splits, AdaptDirection direction, int width, int height,
-                  const RasterState& state) {
+                  const RasterState& state, const GutterPlan* gutter) {
   MapPass pass;
   for (const std::uint32_t split : splits) {
     for (const ChartCells& chart : sequence.split(split)) add_cells(chart.cells, direction, width, height, state, pass);
+    if (gutter != nullptr)
+      for (const GutterTexel& texel : gutter->of_split(split)) add_texel(texel, state, pass);
     pass.group_ends.push_back(static_cast<std::uint32_t>(pass.triangles.size()));
   }
   return pass;
@@ -46,13 +65,21 @@ AdaptCounts adapt_map(Renderer& renderer, const AdaptSequence& sequence, std::si
   if (!renderer.supports({.content = TargetContent::color, .format = map.format()}))
     throw UnavailableError(fmt::format("adapting a map: {} does not draw {}", renderer.name(), to_string(map.format())));
   const AdaptDirection direction = to < from ? AdaptDirection::to_before : AdaptDirection::to_after;
-  const auto packs = pack_splits(sequence, from, to, map.width(), map.height());
+  GutterPlan plan;
+  AdaptCounts counts;
+  if (options.gutter != nullptr) {
+    const Gutter& gutter = *options.gutter;
+    ETALON_CHECK(gutter.level() == from && gutter.width() == map.width() && gutter.height() == map.height(), "gutter: level and size");
+    plan = options.gutter->go_to(sequence, to);
+    counts.gutter = plan.texels.size(), counts.uncovered = plan.uncovered, counts.doubled = plan.doubled;
+  }
+  const GutterPlan* const gutter = options.gutter != nullptr ? &plan : nullptr;
+  const auto packs = pack_splits(sequence, from, to, map.width(), map.height(), gutter != nullptr ? kReachWithGutter : 1);
   const MapState state{options.filter, renderer.supported_state({})};
   const std::unique_ptr<ResidentMap> resident = renderer.make_map(map, state);
-  AdaptCounts counts;
   std::vector<MapPass> passes;
   for (const std::vector<std::uint32_t>& pack : packs) {
-    passes.push_back(cell_pass(sequence, pack, direction, map.width(), map.height(), state.raster));
+    passes.push_back(cell_pass(sequence, pack, direction, map.width(), map.height(), state.raster, gutter));
     counts.adaptations += pack.size(), ++counts.packs;
     if (passes.size() < kPacksAtOnce && counts.packs < packs.size()) continue;
     resident->apply(passes);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/adapt/adapt_sequence.h"
+#include "core/adapt/gutter.h"
 #include "core/adapt/map_format.h"
 #include "core/draw/renderer.h"
 #include "core/draw/state.h"
@@ -13,6 +14,9 @@ namespace etalon::adapt {
 
 struct AdaptOptions {
   Filter filter = Filter::linear;  ///< of the lookups in the map before
+  /// Where set, texels beside charts are kept as linear lookups need them. It must be at level `from` and have the map's size (ETALON_CHECK);
+  /// it goes to level `to`, even where the map does not get there.
+  Gutter* gutter = nullptr;
   /// Called after some packs with packs done and in all; an exception stops the work and leaves `map` as it was.
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
@@ -20,15 +24,18 @@ struct AdaptOptions {
 struct AdaptCounts {
   std::size_t adaptations = 0, packs = 0;
   std::uint64_t texels = 0;  ///< written; 0 where the renderer does not count
+  /// With a gutter: its texels written; texels in no cell inside a ring, and in several, summed over the splits (GutterPlan).
+  std::size_t gutter = 0, uncovered = 0, doubled = 0;
 };
 
 /// The cells of `splits` (disjoint regions, see pack_splits), a group each, as one pass over a map of that size: corners on the sub-texel grid of
-/// `state`, their coordinates in the map before. Where snapping lets two cells of a split have a texel, the lower one is drawn last.
+/// `state`, their coordinates in the map before. Where snapping lets two cells of a split have a texel, the lower one is drawn last. Texels of
+/// `gutter` come after the cells of their split, each as a triangle of its own with one coordinate.
 [[nodiscard]] MapPass cell_pass(const AdaptSequence& sequence, std::span<const std::uint32_t> splits, AdaptDirection direction, int width,
-                                int height, const RasterState& state);
+                                int height, const RasterState& state, const GutterPlan* gutter = nullptr);
 
 /// Takes the map from level `from` to level `to`, down or up. A texel changes where a cell covers its centre; one that no cell covers keeps its
-/// value. UnavailableError where the renderer does not support the map's format.
+/// value, or takes what the gutter's plan says. UnavailableError where the renderer does not support the map's format.
 AdaptCounts adapt_map(Renderer& renderer, const AdaptSequence& sequence, std::size_t from, std::size_t to, Image& map,
                       const AdaptOptions& options = {});
 
