@@ -28,7 +28,7 @@ ApsMetric::Corner ApsMetric::corner(std::uint32_t h) const {
   return {mesh_.start(h), {uv.x, uv.y, 0}, to_double(places_[mesh_.start(h)])};
 }
 
-double ApsMetric::bound(std::uint32_t u, std::uint32_t) const {
+double ApsMetric::largest_bound(std::uint32_t u) const {
   float largest = 0;
   for_each_corner(mesh_, u, [&](std::uint32_t h) { largest = std::max(largest, bounds_[h >> 2]); });
   return largest;

@@ -31,15 +31,16 @@ class ApsMetric {
       : mesh_(mesh), places_(positions.at), bounds_(mesh.face_capacity(), 0) {}
 
   [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v, std::uint32_t h);
-  /// The largest bound of a face of u: not above the cost.
-  [[nodiscard]] double bound(std::uint32_t u, std::uint32_t v) const;
-  void bounds(std::uint32_t u, std::span<CollapseCandidate> candidates) const {
-    const double same = bound(u, u);
-    for (CollapseCandidate& candidate : candidates) candidate.cost = same;
+  /// Takes u and its neighbours in hand (the caller keeps them), until something changes:
+  void surround(std::uint32_t u, std::span<const CollapseCandidate> neighbors) {
+    in_hand_ = u;
+    neighbors_ = neighbors;
+    bound_ = largest_bound(u);
   }
-  [[nodiscard]] double cost_of_bounded(std::uint32_t u, const CollapseCandidate& candidate) {
-    return cost(u, candidate.target, candidate.half_edge);
-  }
+  /// the largest bound of a face of u, not above the cost of u → neighbours[i],
+  [[nodiscard]] double bound_of(std::size_t) const { return bound_; }
+  /// and that cost.
+  [[nodiscard]] double cost_of(std::size_t i) { return cost(in_hand_, neighbors_[i].target, neighbors_[i].half_edge); }
   [[nodiscard]] double squared_distance(std::uint32_t, std::uint32_t, double cost) const { return cost * cost; }
   void collapse(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge);
 
@@ -64,6 +65,7 @@ class ApsMetric {
     double largest = 0;  // of the old bounds
   };
 
+  [[nodiscard]] double largest_bound(std::uint32_t u) const;
   void gather(std::uint32_t u, const CollapseMesh::Edge& edge);
   [[nodiscard]] double deviation(const Side& side) const;
   [[nodiscard]] static double deviation_at_vertex(const Side& side);
@@ -74,6 +76,9 @@ class ApsMetric {
   const std::vector<Vec3f>& places_;
   std::vector<float> bounds_;
   std::array<Side, 2> sides_;  // of the collapse in hand
+  std::uint32_t in_hand_ = kNone;
+  std::span<const CollapseCandidate> neighbors_;
+  double bound_ = 0;
 };
 
 }  // namespace etalon::simplify

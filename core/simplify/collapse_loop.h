@@ -12,21 +12,17 @@
 namespace etalon::simplify {
 
 /// Metric: double cost(u, v, half-edge between them) (never NaN, ≥ 0), of the states of u and v and the faces of u; costs(u, candidates),
-/// of all;
-/// collapse(u, v, edge), the state of v after u went into it, called before the faces change, by which no cost of a way to v falls; and
-/// kCostsAreLocal: whether a cost leaves the other faces of u out, so that a vertex that loses a neighbour keeps its other costs. Where
-/// costs are
-/// dear it may have bounds(u, candidates) instead of costs(), never above the costs as computed, and then cost_of_bounded(u, candidate with
-/// its bound for a cost), the bits of cost(u, v, …).
+/// of all; collapse(u, v, edge), the state of v after u went into it, called before the faces change, by which no cost of a way to v falls;
+/// and kCostsAreLocal: whether a cost leaves the other faces of u out, so that a vertex that loses a neighbour keeps its other costs. Where
+/// costs are dear it may have, in place of costs(): surround(u, all neighbours), then bound_of(i), never above the cost of the way to the
+/// i-th as computed, and cost_of(i), the bits of that cost.
 ///
 /// The queue holds for each vertex its least candidate not yet refused: a lower bound of its least legal one. What is popped is judged
-/// then; a
-/// refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of the
-/// vertex change (the link condition of u→v eases only where u loses a neighbour, everything else depends on the faces of u and the place
-/// of v), and then all its candidates are considered anew. So the first candidate that is legal when popped is the least of all. (One
-/// exception:
-/// beside a place of several fans, where another fan's faces decide the link condition too, a collapse that becomes legal may be seen
-/// late.)
+/// then; a refused candidate gives way to the vertex' next one in the order (cost, target). A refusal can only become void when the faces of
+/// the vertex change (the link condition of u→v eases only where u loses a neighbour, everything else depends on the faces of u and the
+/// place of v), and then all its candidates are considered anew. So the first candidate that is legal when popped is the least of all. (One
+/// exception: beside a place of several fans, where another fan's faces decide the link condition too, a collapse that becomes legal may be
+/// seen late.)
 template <class Metric>
 class CollapseLoop {
  public:
@@ -66,17 +62,16 @@ class CollapseLoop {
 
   /// Does what find() returned last.
   void apply(const Step& step) {
-    near_.clear();
-    mesh_.for_each_neighbor(step.u, [&](std::uint32_t n, std::uint32_t) { near_.push_back(n); });
     queue_.remove(step.u);
     metric_.collapse(step.u, step.v, step.edge);
     mesh_.collapse(step.u, step.edge);
     requeue(best_of(step.v));
     // What was near u is near v now. Vertices that lost u as a neighbour: their faces changed. The others only see v dearer.
     mesh_.for_each_neighbor(step.v, [&](std::uint32_t w, std::uint32_t h) {
-      for (const std::uint32_t n : near_)
-        if (n == w) return refresh(w, h, step);
-      see_dearer_cost(w, step.v);
+      if (legality_.was_near(w))
+        refresh(w, h, step);
+      else
+        see_dearer_cost(w, step.v);
     });
   }
 
@@ -84,7 +79,7 @@ class CollapseLoop {
   [[nodiscard]] const CollapseQueue& queue() const { return queue_; }
 
  private:
-  static constexpr bool kHasBounds = requires(Metric & m, std::vector<CollapseCandidate> c) { m.bounds(0u, c); };
+  static constexpr bool kHasBounds = requires(Metric & m) { m.bound_of(0); };
 
   static bool before(double cost_a, std::uint32_t a, double cost_b, std::uint32_t b) { return cost_a != cost_b ? cost_a < cost_b : a < b; }
 
@@ -103,23 +98,37 @@ class CollapseLoop {
     for_each_candidate(u, [&](std::uint32_t v, std::uint32_t h) { candidates_.push_back({v, h}); });
   }
 
+  // All neighbours, and which of them it may go to.
+  void gather_ring(std::uint32_t u) {
+    ring_.clear();
+    ways_.clear();
+    const VertexKind kind = mesh_.kind(u);
+    if (kind == VertexKind::locked || !mesh_.vertex_alive(u)) return;
+    mesh_.for_each_neighbor(u, [&](std::uint32_t v, std::uint32_t h) {
+      if (kind == VertexKind::interior || mesh_.on_curve(h)) ways_.push_back(static_cast<std::uint32_t>(ring_.size()));
+      ring_.push_back({v, h});
+    });
+  }
+
   // The least candidate behind (cost, target).
   [[nodiscard]] QueuedCollapse least_behind(std::uint32_t u, double cost, std::uint32_t target) {
-    gather(u);
     QueuedCollapse best{std::numeric_limits<double>::infinity(), u, kNone};
     const auto consider = [&](double here, std::uint32_t v) {
       if (before(cost, target, here, v) && before(here, v, best.cost, best.target)) best = {here, u, v};
     };
     if constexpr (kHasBounds) {
-      metric_.bounds(u, candidates_);
-      // By rising bounds: once a bound is above the best cost, so are all costs behind it.
-      for (auto next = candidates_.begin(); next != candidates_.end(); ++next) {
-        for (auto other = next + 1; other != candidates_.end(); ++other)
-          if (other->cost < next->cost) std::swap(*next, *other);
-        if (next->cost > best.cost) break;
-        consider(metric_.cost_of_bounded(u, *next), next->target);
-      }
+      gather_ring(u);
+      if (ways_.empty()) return best;
+      metric_.surround(u, ring_);
+      // Least bound first: where a bound is above the best cost, so is the cost.
+      std::size_t first = ways_[0];
+      for (const std::uint32_t i : ways_)
+        if (metric_.bound_of(i) < metric_.bound_of(first)) first = i;
+      consider(metric_.cost_of(first), ring_[first].target);
+      for (const std::uint32_t i : ways_)
+        if (i != first && !(metric_.bound_of(i) > best.cost)) consider(metric_.cost_of(i), ring_[i].target);
     } else {
+      gather(u);
       metric_.costs(u, candidates_);
       for (const auto& [v, h, here] : candidates_) consider(here, v);
     }
@@ -150,8 +159,7 @@ class CollapseLoop {
   void refresh(std::uint32_t w, std::uint32_t h, const Step& step) {
     if constexpr (Metric::kCostsAreLocal) {
       if (!refused_[w] && mesh_.kind(w) == VertexKind::interior && queue_.contains(w)) {
-        const QueuedCollapse& entry = queue_.of(w);
-        if (entry.target != step.u && entry.target != step.v) return see_cost(w, step.v, h, entry);
+        if (!queue_.goes_to(w, step.u) && !queue_.goes_to(w, step.v)) return see_cost(w, step.v, h, queue_.of(w));
       }
     }
     requeue(best_of(w));
@@ -160,7 +168,7 @@ class CollapseLoop {
   // v's state changed, w's faces did not: the way to v has become dearer or stayed, so only an entry that is that way is not the least any
   // more.
   void see_dearer_cost(std::uint32_t w, std::uint32_t v) {
-    if (queue_.contains(w) && queue_.of(w).target == v) requeue(best_of(w));
+    if (queue_.goes_to(w, v)) requeue(best_of(w));
   }
 
   CollapseMesh& mesh_;
@@ -168,8 +176,8 @@ class CollapseLoop {
   Legality& legality_;
   CollapseQueue queue_;
   std::vector<bool> refused_;  // whether an entry stands behind a refused candidate
-  std::vector<std::uint32_t> near_;
-  std::vector<CollapseCandidate> candidates_;
+  std::vector<CollapseCandidate> candidates_, ring_;
+  std::vector<std::uint32_t> ways_;  // of the ring, which u may go to
   std::array<std::uint64_t, kRefusalCount> refusals_{};
 };
 

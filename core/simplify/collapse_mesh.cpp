@@ -7,11 +7,15 @@
 namespace etalon::simplify {
 
 CollapseMesh::Edge CollapseMesh::find_edge(std::uint32_t u, std::uint32_t v) const {
-  Edge edge;
-  for_each_neighbor(u, [&](std::uint32_t n, std::uint32_t h) {
-    if (n == v) edge = edge_from(u, h);
-  });
-  return edge;
+  const std::uint32_t first = out_[u];
+  std::uint32_t h = first;
+  do {
+    if (end(h) == v) return edge_from(u, h);
+    const std::uint32_t back = previous(h);
+    h = opposite(back);
+    if (h == kNone) return start(back) == v ? edge_from(u, back) : Edge{};
+  } while (h != first);
+  return {};
 }
 
 // The edges a-u and a-v of a removed face become one: the faces behind them meet.

@@ -3,7 +3,6 @@
 // [Garland & Heckbert 1997]; [Kim, Choi & Lee 2008, figure 1a].
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
@@ -72,8 +71,6 @@ class FullEdgeLoop {
 
   /// Does what find() returned last.
   void apply(const Step& step) {
-    near_.clear();
-    mesh_.for_each_neighbor(step.u, [&](std::uint32_t n, std::uint32_t) { near_.push_back(n); });
     queue_.remove(step.u);
     if (step.moves) {
       metric_.merge(step.u, step.v, step.edge, step.placement);
@@ -85,7 +82,7 @@ class FullEdgeLoop {
     // Faces changed: at what was near u, and, where v moved, at all that is near it now.
     revive(step.v);
     mesh_.for_each_neighbor(step.v, [&](std::uint32_t n, std::uint32_t) {
-      if (step.moves || std::find(near_.begin(), near_.end(), n) != near_.end()) revive(n);
+      if (step.moves || legality_.was_near(n)) revive(n);
     });
     requeue(best_of(step.v));
     mesh_.for_each_neighbor(step.v, [&](std::uint32_t n, std::uint32_t h) { see_new_cost(n, h, step); });
@@ -200,7 +197,6 @@ class FullEdgeLoop {
   CollapseQueue queue_;
   std::vector<bool> refused_;     // whether a vertex' entry stands behind a refused edge
   std::vector<bool> refused_at_;  // whether an edge at the vertex was refused since its faces changed last
-  std::vector<std::uint32_t> near_;
   std::array<std::uint64_t, kRefusalCount> refusals_{};
 };
 

@@ -25,6 +25,9 @@ KimMetric::KimMetric(const CollapseMesh& mesh, const UnitPositions& positions, c
   const double unit = options.unit > 0 ? options.unit : diagonal / kUnitsInDiagonal;
   length_ = unit > 0 ? positions.unit / unit : 1;
   length4_ = length_ * length_ * (length_ * length_);
+  if (std::isinf(length4_))
+    throw InputError(
+        fmt::format("metric kim: unit: expected a length beside which the model's fourth power is a finite number, got {}", options.unit));
 
   importance_.assign(mesh.vertex_capacity(), 0);
   largest_.assign(mesh.vertex_capacity(), 0);
@@ -68,27 +71,43 @@ double KimMetric::color_error(std::uint32_t u, std::uint32_t v) const {
   return sum * length_;
 }
 
-void KimMetric::load(std::uint32_t u) {
-  loaded_ = u;
-  near_.clear();
-  points_.clear();
-  mesh_.for_each_neighbor(u, [&](std::uint32_t n, std::uint32_t) {
-    near_.push_back(n);
-    points_.push_back(point(n));
-  });
-  products_.resize(points_.size());
-  terms_.resize(points_.size());
+void KimMetric::surround(std::uint32_t u, std::span<const CollapseCandidate> neighbors) {
+  const std::size_t n = neighbors.size();
+  if (n > x_.size())
+    for (std::vector<double>* lane : {&x_, &y_, &z_, &r_, &g_, &b_, &products_, &terms_, &bounds_, &bases_}) lane->resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point at = point(neighbors[i].target);
+    x_[i] = at.x;
+    y_[i] = at.y;
+    z_[i] = at.z;
+    r_[i] = at.r;
+    g_[i] = at.g;
+    b_[i] = at.b;
+    bases_[i] = qem_.constant(neighbors[i].target);
+  }
+  count_ = n;
   const Point at_u = point(u);
-  for (std::size_t i = 0; i < points_.size(); ++i) products_[i] = product(at_u, points_[i]);
+  write_products(at_u, products_.data());
+  const Quadric3<double> own = qem_.state(u);
+  const double importance = 1 + static_cast<double>(importance_[u]);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double q = evaluate(own, {x_[i] - at_u.x, y_[i] - at_u.y, z_[i] - at_u.z}) + bases_[i];
+    bases_[i] = (1 + (q > 0 ? q : 0) * length4_) * importance;
+    bounds_[i] = bases_[i] * (1 + products_[i] * length_);
+  }
 }
 
-double KimMetric::cost_of_bounded(std::uint32_t u, const CollapseCandidate& candidate) {
-  if (loaded_ != u) load(u);
-  const Point at_v = points_[static_cast<std::size_t>(std::find(near_.begin(), near_.end(), candidate.target) - near_.begin())];
-  for (std::size_t i = 0; i < points_.size(); ++i) terms_[i] = std::fabs(products_[i] - product(at_v, points_[i]));
+// The products of one point with all neighbours in hand.
+void KimMetric::write_products(const Point& p, double* to) const {
+  const double *x = x_.data(), *y = y_.data(), *z = z_.data(), *r = r_.data(), *g = g_.data(), *b = b_.data();
+  for (std::size_t i = 0; i < count_; ++i) to[i] = product(p, {x[i], y[i], z[i], r[i], g[i], b[i]});
+}
+
+double KimMetric::cost_of(std::size_t i) {
+  write_products({x_[i], y_[i], z_[i], r_[i], g_[i], b_[i]}, terms_.data());
   double sum = 0;
-  for (const double term : terms_) sum += term;
-  return candidate.cost * (1 + sum * length_);
+  for (std::size_t k = 0; k < count_; ++k) sum += std::fabs(products_[k] - terms_[k]);
+  return bases_[i] * (1 + sum * length_);
 }
 
 void KimMetric::collapse(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge) {

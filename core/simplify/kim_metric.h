@@ -27,20 +27,17 @@ class KimMetric {
   KimMetric(const CollapseMesh& mesh, const UnitPositions& positions, const QemOptions& qem, const KimOptions& options);
 
   /// (1 + Q)(1 + I(u))(1 + C(u→v)) (eq. 17), lengths in units of `unit`.
-  [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v) const { return bound(u, v) * (1 + color_error(u, v)); }
+  [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v) const {
+    return (1 + qem_.cost(u, v) * length4_) * (1 + static_cast<double>(importance_[u])) * (1 + color_error(u, v));
+  }
   [[nodiscard]] double cost(std::uint32_t u, std::uint32_t v, std::uint32_t) const { return cost(u, v); }
-  /// (1 + Q)(1 + I(u)): not above the cost, since a product with 1 + C ≥ 1 rounds to no less.
-  [[nodiscard]] double bound(std::uint32_t u, std::uint32_t v) const {
-    return (1 + qem_.cost(u, v) * length4_) * (1 + static_cast<double>(importance_[u]));
-  }
-  void bounds(std::uint32_t u, std::span<CollapseCandidate> candidates) {
-    loaded_ = kNone;
-    qem_.costs(u, candidates);
-    const double importance = 1 + static_cast<double>(importance_[u]);
-    for (CollapseCandidate& candidate : candidates) candidate.cost = (1 + candidate.cost * length4_) * importance;
-  }
-  /// After bounds(u, …), nothing having changed.
-  [[nodiscard]] double cost_of_bounded(std::uint32_t u, const CollapseCandidate& candidate);
+  /// Takes u and its neighbours, counter-clockwise, in hand; until something changes:
+  void surround(std::uint32_t u, std::span<const CollapseCandidate> neighbors);
+  /// never above the cost of u → neighbours[i]: of equation 16 the neighbour gone to alone, whose other product is 0 (all terms are ≥ 0, and
+  /// sums and products of such round to no less than with smaller ones);
+  [[nodiscard]] double bound_of(std::size_t i) const { return bounds_[i]; }
+  /// and the bits of that cost.
+  [[nodiscard]] double cost_of(std::size_t i);
   /// Of the quadrics alone.
   [[nodiscard]] double squared_distance(std::uint32_t u, std::uint32_t v, double) const {
     return qem_.squared_distance(u, v, qem_.cost(u, v));
@@ -66,18 +63,16 @@ class KimMetric {
   [[nodiscard]] Point point(std::uint32_t v) const;
   static double squared_color_distance(const Point& a, const Point& b);
   static double product(const Point& a, const Point& b);
-  void load(std::uint32_t u);
+  void write_products(const Point& p, double* to) const;
 
   const CollapseMesh& mesh_;
   const std::vector<Vec3f>& places_;
   QemMetric qem_;
   double length_ = 1, length4_ = 1;  // a length of 1 of the unit cube, and its fourth power, in units
   std::vector<float> importance_, largest_;
-  // Of the vertex in hand: its neighbours, and their products with it.
-  std::uint32_t loaded_ = kNone;
-  std::vector<std::uint32_t> near_;
-  std::vector<Point> points_;
-  std::vector<double> products_, terms_;
+  // Of the neighbours in hand, number by number: places and colours, the products with u's, terms of equation 16, bounds, and costs without C.
+  std::vector<double> x_, y_, z_, r_, g_, b_, products_, terms_, bounds_, bases_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace etalon::simplify

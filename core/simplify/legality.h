@@ -38,6 +38,8 @@ class Legality {
   [[nodiscard]] Refusal check(std::uint32_t u, const CollapseMesh::Edge& edge);
   /// The full-edge collapse of `edge`, edge_from(u, …), to v as moved: the same, and no face of v turned over either.
   [[nodiscard]] Refusal check_move(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge, const MovedVertex& moved);
+  /// Whether w was a neighbour of u in the collapse found legal last, before it was done.
+  [[nodiscard]] bool was_near(std::uint32_t w) const { return marks_[mesh_.origin(w)] == current_; }
 
  private:
   [[nodiscard]] Refusal check_topology(std::uint32_t u, std::uint32_t v, const CollapseMesh::Edge& edge);

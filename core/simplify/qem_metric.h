@@ -60,14 +60,17 @@ class QemMetric {
   }
   void adopt(const Placement&, std::uint32_t, std::uint32_t, const CollapseMesh::Edge&, MovedVertex&) const {}
 
-  [[nodiscard]] std::size_t state_bytes() const { return shapes_.size() * sizeof(shapes_[0]) + constants_.size() * sizeof(constants_[0]); }
-
- private:
-  [[nodiscard]] Vec3d difference(std::uint32_t u, std::uint32_t v) const { return difference_of(places_[u], places_[v]); }
+  /// Measured from v.
   [[nodiscard]] Quadric3<double> state(std::uint32_t v) const {
     const std::array<float, 9>& s = shapes_[v];
     return {s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7], s[8], constants_[v]};
   }
+  /// What v costs where it is.
+  [[nodiscard]] float constant(std::uint32_t v) const { return constants_[v]; }
+  [[nodiscard]] std::size_t state_bytes() const { return shapes_.size() * sizeof(shapes_[0]) + constants_.size() * sizeof(constants_[0]); }
+
+ private:
+  [[nodiscard]] Vec3d difference(std::uint32_t u, std::uint32_t v) const { return difference_of(places_[u], places_[v]); }
   // Each coefficient rounded once.
   void store(std::uint32_t v, const Quadric3<double>& quadric) {
     const Quadric3<float> q = rounded(quadric);

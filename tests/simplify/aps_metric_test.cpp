@@ -57,7 +57,10 @@ TEST_CASE("a peak into a corner: it moves by its height; nothing crosses") {
   const UnitPositions positions = unit_positions(mesh);
   ApsMetric metric(mesh, positions, {});
   const CollapseMesh::Edge edge = mesh.find_edge(0, 1);
-  CHECK(metric.bound(0, 1) == 0);
+  const std::array ring{CollapseCandidate{1, edge.left}};
+  metric.surround(0, ring);
+  CHECK(metric.bound_of(0) == 0);
+  CHECK(metric.cost_of(0) == 0.25);
   CHECK(metric.cost(0, 1, edge.left) == 0.25);
   metric.collapse(0, 1, edge);
   mesh.collapse(0, edge);

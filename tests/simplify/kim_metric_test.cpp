@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/error.h"
 #include "core/simplify/simplify.h"
 #include "tests/simplify/sample_meshes.h"
 
@@ -59,6 +60,33 @@ TEST_CASE("equation 17: the product; equation 15: importances add up") {
   const double before = metric.importance(1);
   metric.collapse(0, 1, mesh.find_edge(0, 1));
   CHECK(metric.importance(1) == before + 2);
+}
+
+TEST_CASE("the cost of a neighbour in hand has the bits of the cost, its bound is not above it") {
+  Mesh sphere = bumpy_sphere(8, 0.3f, 5);
+  for (const Vec3f& p : sphere.positions) sphere.colors.push_back({p.x * p.x, p.y * p.y, p.x > 0 ? 1.0f : 0.0f, 1});
+  const CollapseMesh mesh(sphere, {});
+  const UnitPositions positions = unit_positions(mesh);
+  KimMetric metric(mesh, positions, {}, {});
+  int above = 0;
+  for (std::uint32_t u = 0; u < mesh.vertex_capacity(); ++u) {
+    std::vector<CollapseCandidate> ring;
+    mesh.for_each_neighbor(u, [&](std::uint32_t v, std::uint32_t h) { ring.push_back({v, h}); });
+    metric.surround(u, ring);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      CHECK(metric.cost_of(i) == metric.cost(u, ring[i].target));
+      CHECK(metric.bound_of(i) <= metric.cost_of(i));
+      above += metric.cost_of(i) > metric.bound_of(i) ? 1 : 0;
+    }
+  }
+  CHECK(above > 0);
+}
+
+TEST_CASE("a unit beside which the model is infinite is refused") {
+  const Mesh source = fan({kRed, kBlack, kRed, kBlack, kRed});
+  CHECK_THROWS_WITH_AS(simplify_mesh(source, {.metric = MetricName::kim, .target_faces = 2, .kim = {.unit = 1e-100}}),
+                       "metric kim: unit: expected a length beside which the model's fourth power is a finite number, got 1e-100",
+                       InputError);
 }
 
 TEST_CASE("the state is 48 bytes a vertex, and a model without colour differences is simplified as by its quadrics") {
