@@ -18,6 +18,7 @@
 #include "cli/size_option.h"
 #include "cli/usage_error.h"
 #include "core/adapt/adapt_map.h"
+#include "core/adapt/cell_chunks.h"
 #include "core/io/atomic_file.h"
 #include "core/io/image_file.h"
 #include "core/io/inputs.h"
@@ -124,9 +125,13 @@ int run(const Options& options) {
     throw InputError(fmt::format("{}: expected a whole progressive mesh, got {} of {} splits: a texture belongs to the finest level",
                                  options.input, grouped(content.mesh.split_count()), grouped(content.splits_in_whole)));
   adapt::AdaptSequence sequence = naming_the_model(options.input, [&] {
-    return adapt::AdaptSequence(content.mesh, [&](std::size_t done, std::size_t total) {
+    const auto progress = [&](std::size_t done, std::size_t total) {
       console.progress("cells", static_cast<int>(done), static_cast<int>(total));
-    });
+    };
+    if (auto stored = adapt::decode_cells(content, progress)) return std::move(*stored);
+    adapt::AdaptSequence made(content.mesh, progress);
+    console.line(fmt::format("note: {} has no cells: made now, the same that `etalon progressive` stores", options.input));
+    return made;
   });
   content.mesh.go_to_faces(static_cast<std::size_t>(options.faces));
   const std::size_t level = content.mesh.level();

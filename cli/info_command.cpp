@@ -11,8 +11,10 @@
 
 #include "cli/attribution.h"
 #include "cli/call_files.h"
+#include "cli/cell_report.h"
 #include "cli/exit_code.h"
 #include "cli/model_input.h"
+#include "core/adapt/cell_chunks.h"
 #include "core/base/error.h"
 #include "core/io/exr_file.h"
 #include "core/io/image_file.h"
@@ -152,7 +154,10 @@ Finding examine_exr(const std::string& path) {
 
 Finding examine_progressive(const std::string& path) {
   const io::FileBytes file = io::read_file(path);
-  const progressive::EpmContent content = naming_the_model(path, [&] { return progressive::decode_epm(file.bytes()); });
+  progressive::EpmContent content = naming_the_model(path, [&] { return progressive::decode_epm(file.bytes()); });
+  std::optional<CellReport> cells;
+  if (const auto stored = naming_the_model(path, [&] { return adapt::decode_cells(content); }))
+    cells = {adapt::cell_statistics(*stored), adapt::cell_chunk_bytes(content.extras)};
   const progressive::ProgressiveData& data = content.mesh.data();
   const std::size_t splits = content.mesh.split_count();
   Finding finding;
@@ -161,6 +166,10 @@ Finding examine_progressive(const std::string& path) {
                                       grouped(data.base_vertices), grouped(data.positions.size()), grouped(splits)));
   finding.lines.push_back(fmt::format("texture coordinates: {}; colours: {}; materials: {}", data.has_uv ? "yes" : "no",
                                       data.has_colors ? "yes" : "no", data.has_materials ? "yes" : "no"));
+  if (cells)
+    for (const std::string& line : cell_lines(*cells)) finding.lines.push_back(line);
+  else if (data.has_uv)
+    finding.lines.push_back("cells for texture adaptation: none");
   if (!content.complete)
     finding.lines.push_back(fmt::format("cut short: {} of {} splits are there", grouped(splits), grouped(content.splits_in_whole)));
   finding.members["kind"] = "progressive";
@@ -177,6 +186,7 @@ Finding examine_progressive(const std::string& path) {
                                     {"vertex_colors", data.has_colors},
                                     {"materials", data.has_materials},
                                     {"bytes", file.bytes().size()}};
+  add_cell_members(cells, finding.members["progressive"]);
   return finding;
 }
 

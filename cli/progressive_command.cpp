@@ -9,11 +9,13 @@
 #include <CLI/Formatter.hpp>
 
 #include "cli/call_files.h"
+#include "cli/cell_report.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/model_input.h"
 #include "cli/repair_notes.h"
 #include "cli/usage_error.h"
+#include "core/adapt/cell_chunks.h"
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
 #include "core/io/inputs.h"
@@ -31,7 +33,7 @@ using validation::grouped;
 struct Options {
   std::string input, output, metric = "qem";
   std::int64_t faces = 0;
-  bool faces_given = false, metric_given = false;
+  bool faces_given = false, metric_given = false, no_cells = false;
   CommonOptions common;
 };
 
@@ -56,6 +58,15 @@ std::string printable(std::string name) {
   return name;
 }
 
+/// The cells of texture adaptation, for the file; `data` as it will be read.
+CellReport make_cells(const progressive::ProgressiveData& data, Console& console, std::vector<progressive::EpmExtra>& extras) {
+  progressive::ProgressiveMesh mesh(data);
+  const adapt::AdaptSequence cells(
+      mesh, [&](std::size_t done, std::size_t total) { console.progress("cells", static_cast<int>(done), static_cast<int>(total)); });
+  extras = adapt::encode_cells(cells);
+  return {adapt::cell_statistics(cells), adapt::cell_chunk_bytes(extras)};
+}
+
 int make_file(const Options& options, Console& console, CallFiles& files) {
   io::LoadedModel model = io::read_mesh(options.input);
   add_side_files(files, model);
@@ -76,13 +87,18 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   for (const std::string& note : model.notes) console.line("note: " + note);
   print_repair(console, made.simplified.repair);
   for (const io::Material& material : model.materials) made.data.material_names.push_back(printable(material.name));
-  const std::string bytes = progressive::encode_epm(made.data);
+  std::vector<progressive::EpmExtra> extras;
+  std::optional<CellReport> cells;
+  if (made.data.has_uv && !options.no_cells) cells = make_cells(made.data, console, extras);
+  const std::string bytes = progressive::encode_epm(made.data, extras);
   {
     const FinishWriting writing;
     io::write_file(options.output, bytes);
   }
   console.line(fmt::format("{}: from {} down to {} faces in {} splits, {} bytes", options.output, grouped(mesh.face_count()),
                            grouped(made.data.base_faces), grouped(made.data.splits.size()), grouped(bytes.size())));
+  if (cells)
+    for (const std::string& line : cell_lines(*cells)) console.line(line);
   const bool reached = !options.faces_given || made.simplified.stop == simplify::StopReason::faces;
   if (!reached)
     console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused",
@@ -95,6 +111,7 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   document["records"] = made.data.splits.size();
   document["faces_base"] = made.data.base_faces;
   document["faces"] = made.data.faces.size();
+  add_cell_members(cells, document);
   document["bytes"] = bytes.size();
   document["mesh_sha256"] = nullptr;
   finish(options, console, std::move(document));
@@ -104,6 +121,7 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
 int take_level(const Options& options, Console& console, CallFiles& files) {
   if (!options.faces_given) throw UsageError("progressive: expected --faces N with an .epm file: the level to write");
   if (options.metric_given) throw UsageError("progressive: --metric is of making an .epm file, not of taking a level from one");
+  if (options.no_cells) throw UsageError("progressive: --no-cells is of making an .epm file, not of taking a level from one");
   if (options.output == "-") throw UsageError("progressive: a model may be several files: expected -o FILE.obj, .ply or .glb");
   const io::FileBytes file = io::read_file(options.input);
   progressive::EpmContent content = naming_the_model(options.input, [&] { return progressive::decode_epm(file.bytes()); });
@@ -134,6 +152,7 @@ int take_level(const Options& options, Console& console, CallFiles& files) {
   document["records"] = content.mesh.split_count();
   document["faces_base"] = content.mesh.face_count_at(0);
   document["faces"] = mesh.face_count();
+  add_cell_members(std::nullopt, document);
   document["bytes"] = file.bytes().size();
   document["mesh_sha256"] = mesh_sha256(mesh);
   finish(options, console, std::move(document));
@@ -171,6 +190,8 @@ Verb add_progressive(CLI::App& root) {
              "Error metric, as of simplify: qem (default); qem5 and aps mind texture coordinates; qem6, hoppe and kim vertex colours")
           ->type_name("METRIC")
           ->check(CLI::IsMember({"qem", "qem5", "qem6", "hoppe", "kim", "aps"}));
+  app->add_flag("--no-cells", options->no_cells,
+                "Store no cells of texture adaptation (a model with texture coordinates has them, 12 bytes a split)");
   app->add_option("-o,--output", options->output, "Progressive mesh (.epm), or the level's model (.obj .ply .glb; without materials)")
       ->required()
       ->type_name("OUT")

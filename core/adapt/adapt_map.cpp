@@ -51,8 +51,10 @@ void add_texel(const GutterTexel& texel, const RasterState& state, MapPass& pass
 MapPass cell_pass(const AdaptSequence& sequence, std::span<const std::uint32_t> splits, AdaptDirection direction, int width, int height,
                   const RasterState& state, const GutterPlan* gutter) {
   MapPass pass;
+  std::vector<ChartCells> charts;
   for (const std::uint32_t split : splits) {
-    for (const ChartCells& chart : sequence.split(split)) add_cells(chart.cells, direction, width, height, state, pass);
+    sequence.read(split, charts);
+    for (const ChartCells& chart : charts) add_cells(chart.cells, direction, width, height, state, pass);
     if (gutter != nullptr)
       for (const GutterTexel& texel : gutter->of_split(split)) add_texel(texel, state, pass);
     pass.group_ends.push_back(static_cast<std::uint32_t>(pass.triangles.size()));

@@ -60,19 +60,28 @@ class Taken {
 }  // namespace
 
 AdaptSequence::AdaptSequence(progressive::ProgressiveMesh& mesh, const std::function<void(std::size_t, std::size_t)>& progress)
-    : splits_(mesh.split_count()) {
+    : cells_(mesh.split_count()) {
   if (!mesh.data().has_uv) throw InputError("texture adaptation: expected a mesh with texture coordinates, got one without");
   constexpr std::size_t kBetweenReports = 1000;
   mesh.go_to(mesh.split_count());
   for (std::size_t n = mesh.split_count(); n-- > 0; mesh.go_to(n)) {
-    splits_[n] = cells_of_split(mesh, n);
+    cells_.put(n, cells_of_split(mesh, n));
     if (progress && n % kBetweenReports == 0) progress(mesh.split_count() - n, mesh.split_count());
   }
+  cells_.shrink();
+}
+
+std::vector<ChartCells> AdaptSequence::split(std::size_t n) const {
+  std::vector<ChartCells> charts;
+  cells_.read(n, charts);
+  return charts;
 }
 
 Vec2d AdaptSequence::follow(Vec2d p, std::size_t from, std::size_t to) const {
+  std::vector<ChartCells> charts;
   const auto through = [&](std::size_t n, AdaptDirection direction) {
-    for (const ChartCells& chart : splits_[n])
+    cells_.read(n, charts);
+    for (const ChartCells& chart : charts)
       if (const auto q = map_point(chart.cells, direction, p)) {
         p = *q;
         return;
@@ -91,10 +100,11 @@ std::vector<std::vector<std::uint32_t>> pack_splits(const AdaptSequence& sequenc
     Region region;
   };
   std::vector<Waiting> waiting, later;
+  std::vector<ChartCells> charts;
   const std::size_t low = std::min(from, to), high = std::max(from, to);
   for (std::size_t n = 0; n < high - low; ++n) {
     const std::size_t split = from < to ? low + n : high - 1 - n;
-    const std::vector<ChartCells>& charts = sequence.split(split);
+    sequence.read(split, charts);
     if (has_cells(charts)) waiting.push_back({static_cast<std::uint32_t>(split), region_of(charts, width, height, reach)});
   }
   Taken taken(width, height);

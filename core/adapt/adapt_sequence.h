@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/adapt/cell_map.h"
-#include "core/adapt/split_cells.h"
+#include "core/adapt/cell_store.h"
 
 namespace etalon::adapt {
 
@@ -16,17 +16,22 @@ class AdaptSequence {
   /// Goes once from the finest level to the base. The mesh needs texture coordinates (InputError) and is left at its base. `progress` hears of
   /// splits done and in all about every 1,000; an exception of it stops the work.
   explicit AdaptSequence(progressive::ProgressiveMesh& mesh, const std::function<void(std::size_t, std::size_t)>& progress = {});
+  /// Cells that were made before, of each split of their mesh.
+  explicit AdaptSequence(CellStore cells) : cells_(std::move(cells)) { cells_.shrink(); }
 
-  [[nodiscard]] std::size_t size() const { return splits_.size(); }
+  [[nodiscard]] std::size_t size() const { return cells_.size(); }
   /// Of split n, which leads from level n to level n + 1.
-  [[nodiscard]] const std::vector<ChartCells>& split(std::size_t n) const { return splits_[n]; }
+  [[nodiscard]] std::vector<ChartCells> split(std::size_t n) const;
+  /// The same, with the memory of `charts`.
+  void read(std::size_t n, std::vector<ChartCells>& charts) const { cells_.read(n, charts); }
+  [[nodiscard]] std::size_t memory_bytes() const { return cells_.memory_bytes(); }
 
   /// Where texture coordinate p of level `from` lies at level `to`: through the cells of all splits between, without resampling. The exact
   /// limit of what adapting maps can give.
   [[nodiscard]] Vec2d follow(Vec2d p, std::size_t from, std::size_t to) const;
 
  private:
-  std::vector<std::vector<ChartCells>> splits_;
+  CellStore cells_;
 };
 
 /// The splits between two levels in the order of work (downward from the finer, upward from the coarser), in packs whose regions do not touch:

@@ -87,6 +87,7 @@ std::size_t ChainIndex::bucket_of(const Vec2d& p) const {
 
 Vec2d ChainIndex::follow(Vec2d p) const {
   std::uint32_t done = 0;  // steps before this one are behind
+  std::vector<ChartCells> charts;
   for (;;) {
     const std::size_t bucket = bucket_of(p);
     const std::uint32_t* const end = side_of_.data() + bucket_begin_[bucket + 1];
@@ -97,7 +98,8 @@ Vec2d ChainIndex::follow(Vec2d p) const {
       const Side& side = sides_[*at];
       if (side.step < done || p.x < side.x0 || p.x > side.x1 || p.y < side.y0 || p.y > side.y1) continue;
       const std::size_t split = direction_ == AdaptDirection::to_before ? from_ + side.step : from_ - 1 - side.step;
-      const std::optional<Vec2d> q = map_point(sequence_.split(split)[side.chart].cells, direction_, p);
+      sequence_.read(split, charts);
+      const std::optional<Vec2d> q = map_point(charts[side.chart].cells, direction_, p);
       if (!q) continue;
       p = *q, done = side.step + 1;
       moved_away = bucket_of(p) != bucket;

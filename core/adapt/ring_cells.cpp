@@ -12,8 +12,7 @@
 namespace etalon::adapt {
 namespace {
 
-constexpr std::size_t kMostCorners = 16'000;
-constexpr double kPlaceShares[] = {1, 0.75, 0.5, 0.25, 0.125, 0}, kCrossingShares[] = {1, 0.75, 0.5, 0.25, 0.125, 0.0625, 0};
+constexpr std::size_t kMostCorners = 16'000, kMostNodes = 65'535;
 
 double cross(const Vec2d& a, const Vec2d& b) { return a.x * b.y - a.y * b.x; }
 
@@ -50,14 +49,18 @@ class Overlay {
     return false;
   }
 
-  void find_crossings() {
+  // False where there would be more nodes than cells can name.
+  bool find_crossings() {
     const std::size_t n = ring_.size();
-    crossing_of_.assign(n * n, 0), crossings_.clear();
     const std::size_t below = triangle_ - (on_diagonal_ ? 1 : 0);  // diagonals 2..below are below u, triangle_+1..n−2 above
+    const std::size_t above = n - 1 - triangle_;
+    if (1 + n + below * (below - 1) / 2 + above * (above - 1) / 2 > kMostNodes) return false;
+    crossing_of_.assign(n * n, 0), crossings_.clear();
     for (std::size_t j = 2; j <= below; ++j)
       for (std::size_t k = 1; k < j; ++k) add(k, j);
     for (std::size_t j = triangle_ + 1; j + 2 <= n; ++j)
       for (std::size_t k = j + 1; k < n; ++k) add(k, j);
+    return true;
   }
 
   [[nodiscard]] const std::vector<Crossing>& crossings() const { return crossings_; }
@@ -165,16 +168,22 @@ bool triangulate(const Overlay& overlay, RingCells& result) {
   return positive;
 }
 
-}  // namespace
-
-std::optional<RingCells> make_ring_cells(const CollapseRing& ring) {
+// False for a ring of two corners, which has no cells.
+bool require_ring(const CollapseRing& ring) {
   const std::size_t n = ring.size();
   if (n < 3 || n > kMostCorners || ring.positions.size() != n) {
-    if (ring.on_curve && n == 2 && ring.positions.size() == n) return std::nullopt;
+    if (ring.on_curve && n == 2 && ring.positions.size() == n) return false;
     throw InputError(fmt::format("ring of a collapse: expected 3 to {} corners with a position each, got {} and {}", kMostCorners, n,
                                  ring.positions.size()));
   }
   if (!is_unfolded(ring)) throw InputError("ring of a collapse: expected counter-clockwise triangles, got a fold");
+  return true;
+}
+
+}  // namespace
+
+std::optional<RingCells> make_ring_cells(const CollapseRing& ring) {
+  if (!require_ring(ring)) return std::nullopt;
   const Vec2d from(ring.uv_of_u), way = new_place_of_u(ring) - from;
   RingCells result;
   for (const double u_share : kPlaceShares) {
@@ -182,7 +191,7 @@ std::optional<RingCells> make_ring_cells(const CollapseRing& ring) {
     const Vec2f place(from + u_share * way);
     Overlay overlay(ring, place);
     if (!overlay.locate()) continue;
-    overlay.find_crossings();
+    if (!overlay.find_crossings()) return std::nullopt;
     result.u_kept = u_share;
     for (const double share : kCrossingShares) {
       result.crossings_kept = share;
@@ -191,6 +200,18 @@ std::optional<RingCells> make_ring_cells(const CollapseRing& ring) {
     }
   }
   return std::nullopt;
+}
+
+std::optional<RingCells> ring_cells_at(const CollapseRing& ring, const Vec2f& place, double u_share, double crossing_share) {
+  if (!require_ring(ring)) return std::nullopt;
+  Overlay overlay(ring, place);
+  if (!overlay.locate() || !overlay.find_crossings()) return std::nullopt;
+  RingCells result{.nodes = place_nodes(ring, place, overlay.crossings(), crossing_share),
+                   .cells = {},
+                   .u_kept = u_share,
+                   .crossings_kept = crossing_share};
+  if (!triangulate(overlay, result)) return std::nullopt;
+  return result;
 }
 
 }  // namespace etalon::adapt

@@ -38,20 +38,29 @@ std::vector<Spoke> in_order(std::vector<Spoke> spokes, std::uint32_t first_wedge
   return spokes.empty() ? ordered : std::vector<Spoke>{};
 }
 
+Vec2f mirrored(const Vec2f& uv, bool reflected) { return reflected ? Vec2f{uv.x, -uv.y} : uv; }
+
+ChartCells as_in_chart(std::optional<RingCells> cells, bool reflected) {
+  if (!cells) return {CellStatus::no_place, {}};
+  if (reflected)
+    for (CellNode& node : cells->nodes) node = {mirrored(node.before, true), mirrored(node.after, true)};
+  return {CellStatus::made, std::move(*cells)};
+}
+
 class SplitRing {
  public:
   SplitRing(const ProgressiveMesh& mesh, std::size_t split)
       : mesh_(mesh), data_(mesh.data()), split_(data_.splits[split]), number_(split) {}
 
-  [[nodiscard]] std::vector<ChartCells> cells() const {
+  [[nodiscard]] std::vector<ChartRing> rings() const {
     std::vector<Spoke> sides[2];
     for (std::uint32_t c = split_.first_corner; c < split_.end_corner; ++c)
       sides[c < split_.right_corner ? 0 : 1].push_back(spoke(data_.corners[c] >> 2, data_.corners[c] & 3));
     const auto end_face = static_cast<std::uint32_t>(mesh_.face_count_at(number_ + 1));
     for (std::uint32_t f = split_.first_face; f < end_face; ++f) add_new_face(f, sides);
-    std::vector<ChartCells> result;
+    std::vector<ChartRing> result;
     for (const std::vector<Spoke>& side : sides)
-      if (!side.empty()) result.push_back(cells_of(side));
+      if (!side.empty()) result.push_back(ring_of(side));
     return result;
   }
 
@@ -75,11 +84,11 @@ class SplitRing {
     }
   }
 
-  [[nodiscard]] ChartCells cells_of(const std::vector<Spoke>& side) const {
+  [[nodiscard]] ChartRing ring_of(const std::vector<Spoke>& side) const {
     const auto of_parent = std::find_if(side.begin(), side.end(), [&](const Spoke& s) { return vertex(s.a) == split_.parent; });
     bool closed = false;
     const std::vector<Spoke> spokes = in_order(side, of_parent != side.end() ? of_parent->a : kNone, closed);
-    ETALON_CHECK(!spokes.empty(), fmt::format("split {}: the triangles around its vertex make no fan", number_));
+    if (spokes.empty()) return {CellStatus::no_fan, {}, false};
     std::vector<std::uint32_t> wedges;
     for (const Spoke& s : spokes) wedges.push_back(s.a);
     if (!closed) wedges.push_back(spokes.back().b);
@@ -91,19 +100,19 @@ class SplitRing {
       std::reverse(wedges.begin(), wedges.end());
       reflected = !reflected;
     }
-    ETALON_CHECK(vertex(wedges.front()) == split_.parent, fmt::format("split {}: its parent is not beside its vertex", number_));
-    CollapseRing ring;
-    const auto place = [&](std::uint32_t wedge) { return reflected ? Vec2f{uv(wedge).x, -uv(wedge).y} : uv(wedge); };
+    if (vertex(wedges.front()) != split_.parent) return {CellStatus::no_fan, {}, false};
+    ChartRing result;
+    result.reflected = reflected;
+    CollapseRing& ring = result.ring;
+    const auto place = [&](std::uint32_t wedge) { return mirrored(uv(wedge), reflected); };
     ring.on_curve = !closed;
     ring.uv_of_u = place(spokes.front().u), ring.position_of_u = data_.positions[vertex(spokes.front().u)];
     for (const std::uint32_t wedge : wedges) ring.uv.push_back(place(wedge)), ring.positions.push_back(data_.positions[vertex(wedge)]);
-    if (ring.on_curve && ring.size() == 2) return {CellStatus::gone, {}};
-    if (ring.size() < 3 || !is_unfolded(ring)) return {CellStatus::fold, {}};
-    auto cells = make_ring_cells(ring);
-    if (!cells) return {CellStatus::no_place, {}};
-    if (reflected)
-      for (CellNode& node : cells->nodes) node.before.y = -node.before.y, node.after.y = -node.after.y;
-    return {CellStatus::made, std::move(*cells)};
+    if (ring.on_curve && ring.size() == 2)
+      result.status = CellStatus::gone;
+    else if (ring.size() < 3 || !is_unfolded(ring))
+      result.status = CellStatus::fold;
+    return result;
   }
 
   [[nodiscard]] const Vec2f& uv(std::uint32_t wedge) const { return data_.wedges[wedge].uv; }
@@ -116,11 +125,38 @@ class SplitRing {
 
 }  // namespace
 
-std::vector<ChartCells> cells_of_split(const ProgressiveMesh& mesh, std::size_t split) {
+const char* to_string(CellStatus status) {
+  switch (status) {
+    case CellStatus::made: return "made";
+    case CellStatus::fold: return "fold";
+    case CellStatus::no_place: return "no_place";
+    case CellStatus::gone: return "gone";
+    case CellStatus::no_fan: return "no_fan";
+  }
+  return "";
+}
+
+std::vector<ChartRing> rings_of_split(const ProgressiveMesh& mesh, std::size_t split) {
   ETALON_CHECK(split < mesh.split_count() && mesh.level() == split + 1,
                fmt::format("cells of split {} of {}: the mesh is at level {}", split, mesh.split_count(), mesh.level()));
   ETALON_CHECK(mesh.data().has_uv, "cells of a mesh without texture coordinates");
-  return SplitRing(mesh, split).cells();
+  return SplitRing(mesh, split).rings();
+}
+
+ChartCells make_chart_cells(const ChartRing& ring) {
+  if (ring.status != CellStatus::made) return {ring.status, {}};
+  return as_in_chart(make_ring_cells(ring.ring), ring.reflected);
+}
+
+ChartCells chart_cells_at(const ChartRing& ring, const Vec2f& place, double u_share, double crossing_share) {
+  if (ring.status != CellStatus::made) return {CellStatus::no_place, {}};
+  return as_in_chart(ring_cells_at(ring.ring, mirrored(place, ring.reflected), u_share, crossing_share), ring.reflected);
+}
+
+std::vector<ChartCells> cells_of_split(const ProgressiveMesh& mesh, std::size_t split) {
+  std::vector<ChartCells> result;
+  for (const ChartRing& ring : rings_of_split(mesh, split)) result.push_back(make_chart_cells(ring));
+  return result;
 }
 
 }  // namespace etalon::adapt

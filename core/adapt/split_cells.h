@@ -14,16 +14,36 @@ enum class CellStatus : std::uint8_t {
   fold,      ///< a triangle of the ring is turned against the others in the texture plane, or has no area there
   no_place,  ///< make_ring_cells() found no positive cells
   gone,      ///< on a curve: no triangle is left after the collapse
+  no_fan,    ///< the triangles on that side are no fan that begins or ends at v: a file may hold such a mesh
 };
+inline constexpr std::size_t kCellStatusCount = 5;
+/// "made", "fold", …: as documents name them.
+[[nodiscard]] const char* to_string(CellStatus status);
 
 /// The cells on one side of u's curve, or all around u: in texture coordinates as they are, so those of a mirrored chart are clockwise.
 struct ChartCells {
   CellStatus status = CellStatus::made;
   RingCells cells;  ///< empty unless made
+  friend bool operator==(const ChartCells&, const ChartCells&) = default;
+};
+
+/// The ring that ChartCells are made of.
+struct ChartRing {
+  CellStatus status = CellStatus::made;  ///< `made`: it is unfolded; or fold, or gone
+  CollapseRing ring;
+  bool reflected = false;  ///< `ring` has (u, −v) for the texture coordinate (u, v)
 };
 
 /// One for an interior vertex, one or two for a vertex on a curve. `mesh` has to be at level split + 1 at least (ETALON_CHECK) and at most
 /// there; it must have texture coordinates.
 [[nodiscard]] std::vector<ChartCells> cells_of_split(const progressive::ProgressiveMesh& mesh, std::size_t split);
+
+/// The rings that cells_of_split() makes its cells of, in the same order; the same demands.
+[[nodiscard]] std::vector<ChartRing> rings_of_split(const progressive::ProgressiveMesh& mesh, std::size_t split);
+/// The cells of one of them.
+[[nodiscard]] ChartCells make_chart_cells(const ChartRing& ring);
+/// What make_chart_cells() gives where u's place (a texture coordinate of the mesh) and the shares are known: ring_cells_at(). Status
+/// no_place where these leave no cells, or the ring has none.
+[[nodiscard]] ChartCells chart_cells_at(const ChartRing& ring, const Vec2f& place, double u_share, double crossing_share);
 
 }  // namespace etalon::adapt

@@ -72,6 +72,28 @@ TEST_CASE("adapt: every format and filter of the map; one that cannot name the t
       }
 }
 
+TEST_CASE("adapt: stored cells and cells made now give the same bytes; damaged ones are refused") {
+  const ScratchFolder folder;
+  make_swirl(folder);
+  REQUIRE(run_etalon({"progressive", "swirl.obj", "--metric", "qem5", "--faces", "200", "--no-cells", "-o", "bare.epm"},
+                     {.folder = folder.path()})
+              .exit_code == 0);
+  std::string map;
+  for (const std::string file : {"swirl.epm", "bare.epm"}) {
+    const CommandResult result =
+        run_etalon({"adapt", file, "--faces", "300", "--map", "level.exr", "--size", "64"}, {.folder = folder.path()});
+    CHECK(result.exit_code == 0);
+    CHECK((result.out.find("has no cells") != std::string::npos) == (file == "bare.epm"));
+    const std::string bytes = read_text(folder.path() / "level.exr");
+    if (map.empty()) map = bytes;
+    CHECK(bytes == map);
+  }
+  std::string damaged = read_text(folder.path() / "swirl.epm");
+  damaged[damaged.find("CELL") + 30] ^= 1;
+  folder.file("damaged.epm", damaged);
+  check_refused({"adapt", "damaged.epm", "--faces", "300", "--map", "b.exr"}, 4, folder, "checksum");
+}
+
 TEST_CASE("adapt: what is refused leaves nothing behind") {
   const ScratchFolder folder;
   make_swirl(folder);

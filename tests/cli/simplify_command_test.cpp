@@ -170,6 +170,12 @@ TEST_CASE("progressive: a level of the file is the simplified model; a cut file 
   const json document = checked_document(made, "progressive.json");
   CHECK(document["faces"] == 800);
   CHECK(document["bytes"] == read_text(folder.path() / "swirl.epm").size());
+  CHECK(document["cells"] > 8 * document["records"].get<int>());
+  CHECK(document["folded_cells"] == 0);
+  const json statistics = document["cell_statistics"];
+  CHECK(statistics["rings"] > document["records"].get<int>() * 9 / 10);
+  CHECK(statistics["file_bytes"]["per_split"] <= 60);
+  CHECK(statistics["memory_bytes"]["per_split"] <= 200);
   const CommandResult level =
       run_etalon({"progressive", "swirl.epm", "--faces", "300", "-o", "level.ply", "--json", "-"}, {.folder = folder.path()});
   REQUIRE(level.exit_code == 0);
@@ -185,6 +191,16 @@ TEST_CASE("progressive: a level of the file is the simplified model; a cut file 
   CHECK(found["progressive"]["complete"] == true);
   CHECK(found["progressive"]["faces"] == 800);
   CHECK(found["progressive"]["records"] == document["records"]);
+  CHECK(found["progressive"]["cell_statistics"] == statistics);
+  CHECK(info.out.find("damped_crossings") != std::string::npos);
+
+  const CommandResult bare =
+      run_etalon({"progressive", "swirl.obj", "--no-cells", "-o", "bare.epm", "--json", "-"}, {.folder = folder.path()});
+  const json without = checked_document(bare, "progressive.json");
+  CHECK(without["cells"].is_null());
+  CHECK(without["bytes"].get<std::size_t>() + statistics["file_bytes"]["total"].get<std::size_t>() == document["bytes"]);
+  CHECK(run_etalon({"info", "bare.epm"}, {.folder = folder.path()}).out.find("cells for texture adaptation: none") != std::string::npos);
+  check_refused({"progressive", "swirl.epm", "--faces", "3", "--no-cells", "-o", "b.ply"}, 64, folder, "--no-cells");
 
   const std::string whole = read_text(folder.path() / "swirl.epm");
   folder.file("cut.epm", whole.substr(0, whole.size() - 1));
