@@ -31,9 +31,9 @@ using Json = nlohmann::ordered_json;
 using validation::grouped;
 
 struct Options {
-  std::string input, output, metric = "qem";
+  std::string input, output, metric = "qem", collapse = "half";
   std::int64_t faces = 0;
-  bool faces_given = false, metric_given = false, no_cells = false;
+  bool faces_given = false, metric_given = false, collapse_given = false, no_cells = false;
   CommonOptions common;
 };
 
@@ -76,6 +76,7 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   progressive::ProgressiveResult made = naming_the_model(options.input, [&] {
     simplify::SimplifyOptions how;
     how.metric = simplify::metric_named(options.metric);
+    how.collapse = options.collapse == "full" ? simplify::CollapseKind::full : simplify::CollapseKind::half;
     how.target_faces = static_cast<std::size_t>(options.faces);
     how.progress = [&](std::size_t done, std::size_t total) {
       console.progress("faces removed", static_cast<int>(done), static_cast<int>(total));
@@ -108,6 +109,7 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   console.line("wrote " + options.output);
   Json document = validation::document_head("progressive", {file_input(options.input, "model")});
   document["metric"] = options.metric;
+  document["collapse"] = options.collapse;
   document["records"] = made.data.splits.size();
   document["faces_base"] = made.data.base_faces;
   document["faces"] = made.data.faces.size();
@@ -121,6 +123,7 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
 int take_level(const Options& options, Console& console, CallFiles& files) {
   if (!options.faces_given) throw UsageError("progressive: expected --faces N with an .epm file: the level to write");
   if (options.metric_given) throw UsageError("progressive: --metric is of making an .epm file, not of taking a level from one");
+  if (options.collapse_given) throw UsageError("progressive: --collapse is of making an .epm file, not of taking a level from one");
   if (options.no_cells) throw UsageError("progressive: --no-cells is of making an .epm file, not of taking a level from one");
   if (options.output == "-") throw UsageError("progressive: a model may be several files: expected -o FILE.obj, .ply or .glb");
   const io::FileBytes file = io::read_file(options.input);
@@ -149,6 +152,7 @@ int take_level(const Options& options, Console& console, CallFiles& files) {
   console.line("wrote " + options.output);
   Json document = validation::document_head("progressive", {file_input(options.input, "progressive mesh")});
   document["metric"] = nullptr;
+  document["collapse"] = nullptr;
   document["records"] = content.mesh.split_count();
   document["faces_base"] = content.mesh.face_count_at(0);
   document["faces"] = mesh.face_count();
@@ -161,6 +165,8 @@ int take_level(const Options& options, Console& console, CallFiles& files) {
 
 int run(const Options& options) {
   apply(options.common);
+  if ((options.metric == "kim" || options.metric == "aps") && options.collapse == "full")
+    throw UsageError(fmt::format("progressive: --metric {} is of half-edge collapses: --collapse half", options.metric));
   if (is_epm(options.input) == is_epm(options.output))
     throw UsageError("progressive: expected a model and -o FILE.epm, or an .epm file and -o MODEL");
   require_writable_file(options.output);
@@ -190,6 +196,11 @@ Verb add_progressive(CLI::App& root) {
              "Error metric, as of simplify: qem (default); qem5 and aps mind texture coordinates; qem6, hoppe and kim vertex colours")
           ->type_name("METRIC")
           ->check(CLI::IsMember({"qem", "qem5", "qem6", "hoppe", "kim", "aps"}));
+  CLI::Option* collapse =
+      app->add_option("--collapse", options->collapse,
+                      "half (default): a vertex goes into a neighbour; full: both ends to the best place (not kim, aps)")
+          ->type_name("KIND")
+          ->check(CLI::IsMember({"half", "full"}));
   app->add_flag("--no-cells", options->no_cells,
                 "Store no cells of texture adaptation (a model with texture coordinates has them, 12 bytes a split)");
   app->add_option("-o,--output", options->output, "Progressive mesh (.epm), or the level's model (.obj .ply .glb; without materials)")
@@ -198,7 +209,8 @@ Verb add_progressive(CLI::App& root) {
       ->check(not_empty());
   add_common_options(*app, options->common,
                      "  etalon progressive scan.ply -o scan.epm\n  etalon progressive scan.epm --faces 5000 -o level.ply");
-  return {app, [options, faces, metric] {
+  return {app, [options, faces, metric, collapse] {
+            options->collapse_given = collapse->count() > 0;
             options->faces_given = faces->count() > 0, options->metric_given = metric->count() > 0;
             return run(*options);
           }};

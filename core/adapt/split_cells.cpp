@@ -106,8 +106,8 @@ class SplitRing {
     CollapseRing& ring = result.ring;
     const auto place = [&](std::uint32_t wedge) { return mirrored(uv(wedge), reflected); };
     ring.on_curve = !closed;
-    ring.uv_of_u = place(spokes.front().u), ring.position_of_u = data_.positions[vertex(spokes.front().u)];
-    for (const std::uint32_t wedge : wedges) ring.uv.push_back(place(wedge)), ring.positions.push_back(data_.positions[vertex(wedge)]);
+    ring.uv_of_u = place(spokes.front().u), ring.position_of_u = mesh_.position(vertex(spokes.front().u));
+    for (const std::uint32_t wedge : wedges) ring.uv.push_back(place(wedge)), ring.positions.push_back(mesh_.position(vertex(wedge)));
     if (ring.on_curve && ring.size() == 2)
       result.status = CellStatus::gone;
     else if (ring.size() < 3 || !is_unfolded(ring))
@@ -115,7 +115,7 @@ class SplitRing {
     return result;
   }
 
-  [[nodiscard]] const Vec2f& uv(std::uint32_t wedge) const { return data_.wedges[wedge].uv; }
+  [[nodiscard]] const Vec2f& uv(std::uint32_t wedge) const { return mesh_.uv(wedge); }
 
   const ProgressiveMesh& mesh_;
   const progressive::ProgressiveData& data_;
@@ -140,6 +140,7 @@ std::vector<ChartRing> rings_of_split(const ProgressiveMesh& mesh, std::size_t s
   ETALON_CHECK(split < mesh.split_count() && mesh.level() == split + 1,
                fmt::format("cells of split {} of {}: the mesh is at level {}", split, mesh.split_count(), mesh.level()));
   ETALON_CHECK(mesh.data().has_uv, "cells of a mesh without texture coordinates");
+  if (mesh.data().splits[split].move != kNone) return {{CellStatus::no_place, {}, false}};
   return SplitRing(mesh, split).rings();
 }
 

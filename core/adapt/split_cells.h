@@ -12,7 +12,7 @@ namespace etalon::adapt {
 enum class CellStatus : std::uint8_t {
   made,
   fold,      ///< a triangle of the ring is turned against the others in the texture plane, or has no area there
-  no_place,  ///< make_ring_cells() found no positive cells
+  no_place,  ///< make_ring_cells() found no positive cells, or v moved (a full-edge collapse)
   gone,      ///< on a curve: no triangle is left after the collapse
   no_fan,    ///< the triangles on that side are no fan that begins or ends at v: a file may hold such a mesh
 };

@@ -15,7 +15,9 @@ constexpr std::uint32_t tag(const char (&name)[5]) {
 }
 inline constexpr std::uint32_t kHead = tag("HEAD"), kBase = tag("BASE"), kNames = tag("mtls"), kSplits = tag("SPLT"), kDone = tag("DONE");
 inline constexpr std::uint32_t kCells = tag("CELL"), kBaseMap = tag("BMAP");
-inline constexpr std::uint32_t kHasUv = 1, kHasColors = 2, kHasMaterials = 4;
+inline constexpr std::uint32_t kHasUv = 1, kHasColors = 2, kHasMaterials = 4, kHasMoves = 8;
+inline constexpr std::uint32_t kAllFlags = kHasUv | kHasColors | kHasMaterials | kHasMoves;
+inline constexpr std::uint8_t kMovesParent = 1, kMovesLeft = 2, kMovesRight = 4;  ///< of a split, in a file that has moves
 inline constexpr std::size_t kChunkHead = 16;
 
 inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }

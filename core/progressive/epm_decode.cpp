@@ -99,10 +99,11 @@ class Decoder {
   void head(ByteReader in) {
     const std::uint32_t version = in.u32(), flags = in.u32();
     if (version != kEpmVersion) throw InputError(fmt::format("version: expected {}, got {}", kEpmVersion, version));
-    if (flags > 7) throw InputError(fmt::format("flags: expected at most 7, got {}", flags));
+    if (flags > kAllFlags) throw InputError(fmt::format("flags: expected at most {}, got {}", kAllFlags, flags));
     data_.has_uv = flags & kHasUv;
     data_.has_colors = flags & kHasColors;
     data_.has_materials = flags & kHasMaterials;
+    has_moves_ = flags & kHasMoves;
     total_ = in.u32();
     in.require_end();
   }
@@ -165,12 +166,31 @@ class Decoder {
       for (std::uint32_t c = 0; c < counts[side]; ++c) data_.corners.push_back(in.u32());
       (side == 0 ? s.right_corner : s.end_corner) = static_cast<std::uint32_t>(data_.corners.size());
     }
+    if (has_moves_) move(in, s);
     data_.splits.push_back(s);
+  }
+
+  void move(ByteReader& in, VertexSplit& s) {
+    const std::uint8_t moves = in.u8();
+    if (moves == 0) return;
+    if ((moves & kMovesParent) == 0 || moves > (kMovesParent | kMovesLeft | kMovesRight))
+      throw InputError(fmt::format("byte {}: move: expected 0, or 1 and perhaps 2 and 4, got {}", in.place() - 1, moves));
+    s.move = static_cast<std::uint32_t>(data_.moves.size());
+    ParentMove& m = data_.moves.emplace_back();
+    for (int k = 0; k < 3; ++k) m.position[k] = in.f32();
+    for (int k = 0; k < 4 && data_.has_colors; ++k) m.color[k] = in.f32();
+    for (std::size_t side = 0; side < 2; ++side) {
+      if ((moves & (side == 0 ? kMovesLeft : kMovesRight)) == 0) continue;
+      m.wedge[side] = in.u32();
+      if (m.wedge[side] == kNone) throw InputError(fmt::format("byte {}: moved wedge: expected one", in.place() - 4));
+      for (int k = 0; k < 2; ++k) m.uv[side][k] = in.f32();
+    }
   }
 
   ByteReader in_;
   ProgressiveData data_;
   std::size_t total_ = 0;
+  bool has_moves_ = false;
   std::vector<EpmExtra> extras_;
 };
 

@@ -78,7 +78,8 @@ class Encoder {
   [[nodiscard]] std::string head() const {
     ByteWriter out;
     out.u32(kEpmVersion);
-    out.u32((data_.has_uv ? kHasUv : 0) | (data_.has_colors ? kHasColors : 0) | (data_.has_materials ? kHasMaterials : 0));
+    out.u32((data_.has_uv ? kHasUv : 0) | (data_.has_colors ? kHasColors : 0) | (data_.has_materials ? kHasMaterials : 0) |
+            (data_.moves.empty() ? 0 : kHasMoves));
     out.u32(static_cast<std::uint32_t>(data_.splits.size()));
     return out.bytes();
   }
@@ -126,6 +127,20 @@ class Encoder {
       out.u32(s.wedge_of_parent[side]);
       out.u32(s.wedge[side]);
       for (std::uint32_t c = bounds[side]; c < bounds[side + 1]; ++c) out.u32(data_.corners[c]);
+    }
+    if (!data_.moves.empty()) move(s, out);
+  }
+  void move(const VertexSplit& s, ByteWriter& out) const {
+    if (s.move == kNone) return out.u8(0);
+    const ParentMove& m = data_.moves[s.move];
+    const auto sides = static_cast<std::uint8_t>((m.wedge[0] != kNone ? kMovesLeft : 0) | (m.wedge[1] != kNone ? kMovesRight : 0));
+    out.u8(kMovesParent | sides);
+    for (int k = 0; k < 3; ++k) out.f32(m.position[k]);
+    for (int k = 0; k < 4 && data_.has_colors; ++k) out.f32(m.color[k]);
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (m.wedge[side] == kNone) continue;
+      out.u32(m.wedge[side]);
+      for (int k = 0; k < 2; ++k) out.f32(m.uv[side][k]);
     }
   }
   const ProgressiveData& data_;

@@ -21,6 +21,15 @@ struct Recorded {
   std::array<std::uint32_t, 2> wedge_u{kNone, kNone}, wedge_v{kNone, kNone};
   std::size_t first_corner = 0, right_corner = 0, end_corner = 0;
   std::size_t first_gone = 0, end_gone = 0;  // wedges that no face uses any more
+  Vec3f position{0, 0, 0};                   // of u, as it goes
+  Vec4f color{0, 0, 0, 1};
+  std::uint32_t move = kNone;
+};
+
+/// A wedge that goes, as it goes.
+struct Gone {
+  std::uint32_t wedge = kNone;
+  Vec2f uv{0, 0};
 };
 
 class Recorder {
@@ -65,8 +74,11 @@ class Recorder {
     corners_.insert(corners_.end(), behind.begin(), behind.end());
     r.end_corner = corners_.size();
     r.first_gone = gone_.size();
-    move_uses(r);
+    move_uses(triangles, r);
     r.end_gone = gone_.size();
+    r.position = triangles.position(event.u);
+    if (!mesh_.colors.empty()) r.color = triangles.color(event.u);
+    if (event.moves) keep_parent(triangles, event.v, r);
     records_.push_back(r);
   }
 
@@ -89,7 +101,20 @@ class Recorder {
     for (std::uint32_t k = 0; k < 3; ++k) r.face_wedges[side][k] = wedge(triangles, 4 * f + k);
   }
 
-  void move_uses(const Recorded& r) {
+  // v as it is before it moves. A wedge of its that goes is kept with those that do.
+  void keep_parent(const CollapseMesh& triangles, std::uint32_t v, Recorded& r) {
+    r.move = static_cast<std::uint32_t>(moves_.size());
+    ParentMove& move = moves_.emplace_back();
+    move.position = triangles.position(v);
+    if (!mesh_.colors.empty()) move.color = triangles.color(v);
+    for (std::size_t side = 0; side < 2 && mesh_.has_uv; ++side) {
+      const std::uint32_t w = r.wedge_v[side];
+      if (w == kNone || uses_[w] == 0 || (side == 1 && w == r.wedge_v[0])) continue;
+      move.wedge[side] = w, move.uv[side] = triangles.uv_of_wedge(w);
+    }
+  }
+
+  void move_uses(const CollapseMesh& triangles, const Recorded& r) {
     std::vector<std::uint32_t> lost;
     for (std::size_t side = 0; side < 2; ++side) {
       if (r.faces[side] != kNone)
@@ -104,14 +129,16 @@ class Recorder {
     std::sort(lost.begin(), lost.end());
     lost.erase(std::unique(lost.begin(), lost.end()), lost.end());
     for (const std::uint32_t w : lost)
-      if (uses_[w] == 0) gone_.push_back(w);
+      if (uses_[w] == 0) gone_.push_back({w, mesh_.has_uv ? triangles.uv_of_wedge(w) : mesh_.wedges[w].uv});
   }
 
   const Mesh& mesh_;
   std::vector<std::uint32_t> uses_, only_wedge_;
   bool counted_ = false;
   std::vector<Recorded> records_;
-  std::vector<std::uint32_t> corners_, gone_;
+  std::vector<std::uint32_t> corners_;
+  std::vector<Gone> gone_;
+  std::vector<ParentMove> moves_;  // in the original's ids, by collapse
 };
 
 /// Gives ids by appearance and copies what belongs to them.
@@ -120,15 +147,15 @@ class Writer {
   Writer(const Mesh& mesh, ProgressiveData& data)
       : mesh_(mesh), data_(data), vertex_(mesh.vertex_count(), kNone), wedge_(mesh.wedge_count(), kNone), face_(mesh.face_count(), kNone) {}
 
-  void add_vertex(std::uint32_t v) {
+  void add_vertex(std::uint32_t v, const Vec3f& position, const Vec4f& color) {
     vertex_[v] = static_cast<std::uint32_t>(data_.positions.size());
-    data_.positions.push_back(mesh_.positions[v]);
-    if (data_.has_colors) data_.colors.push_back(mesh_.colors[v]);
+    data_.positions.push_back(position);
+    if (data_.has_colors) data_.colors.push_back(color);
     data_.vertex_ids.push_back(v);
   }
-  void add_wedge(std::uint32_t w) {
+  void add_wedge(std::uint32_t w, const Vec2f& uv) {
     wedge_[w] = static_cast<std::uint32_t>(data_.wedges.size());
-    data_.wedges.push_back({VertexId(vertex_[mesh_.wedges[w].vertex.index]), mesh_.wedges[w].uv});
+    data_.wedges.push_back({VertexId(vertex_[mesh_.wedges[w].vertex.index]), uv});
     data_.wedge_ids.push_back(w);
   }
   void add_face(std::uint32_t f, const std::array<std::uint32_t, 3>& wedges) {
@@ -136,6 +163,10 @@ class Writer {
     data_.faces.push_back({wedge_[wedges[0]], wedge_[wedges[1]], wedge_[wedges[2]]});
     if (data_.has_materials) data_.materials.push_back(mesh_.face_materials[f]);
     data_.face_ids.push_back(f);
+  }
+  void add_move(ParentMove move) {
+    for (std::uint32_t& w : move.wedge) w = wedge(w);
+    data_.moves.push_back(move);
   }
   [[nodiscard]] std::uint32_t vertex(std::uint32_t v) const { return vertex_[v]; }
   [[nodiscard]] std::uint32_t wedge(std::uint32_t w) const { return w == kNone ? kNone : wedge_[w]; }
@@ -153,8 +184,9 @@ ProgressiveData Recorder::data(const simplify::SimplifyResult& base) const {
   data.has_colors = !mesh_.colors.empty();
   data.has_materials = !mesh_.face_materials.empty();
   Writer writer(mesh_, data);
-  for (const VertexId v : base.source_vertex) writer.add_vertex(v.index);
-  for (const WedgeId w : base.source_wedge) writer.add_wedge(w.index);
+  for (std::size_t v = 0; v < base.mesh.vertex_count(); ++v)
+    writer.add_vertex(base.source_vertex[v].index, base.mesh.positions[v], data.has_colors ? base.mesh.colors[v] : Vec4f{0, 0, 0, 1});
+  for (std::size_t w = 0; w < base.mesh.wedge_count(); ++w) writer.add_wedge(base.source_wedge[w].index, base.mesh.wedges[w].uv);
   for (std::size_t f = 0; f < base.mesh.face_count(); ++f) {
     std::array<std::uint32_t, 3> wedges{};
     for (std::size_t k = 0; k < 3; ++k) wedges[k] = base.source_wedge[base.mesh.faces[f][k].index].index;
@@ -170,8 +202,12 @@ ProgressiveData Recorder::data(const simplify::SimplifyResult& base) const {
     split.parent = writer.vertex(r.v);
     split.first_wedge = static_cast<std::uint32_t>(data.wedges.size());
     split.first_face = static_cast<std::uint32_t>(data.faces.size());
-    writer.add_vertex(r.u);
-    for (std::size_t g = r.first_gone; g < r.end_gone; ++g) writer.add_wedge(gone_[g]);
+    if (r.move != kNone) {
+      split.move = static_cast<std::uint32_t>(data.moves.size());
+      writer.add_move(moves_[r.move]);
+    }
+    writer.add_vertex(r.u, r.position, r.color);
+    for (std::size_t g = r.first_gone; g < r.end_gone; ++g) writer.add_wedge(gone_[g].wedge, gone_[g].uv);
     split.first_corner = static_cast<std::uint32_t>(data.corners.size());
     for (std::size_t c = r.first_corner; c < r.end_corner; ++c) {
       if (c == r.right_corner) split.right_corner = static_cast<std::uint32_t>(data.corners.size());
@@ -194,8 +230,6 @@ ProgressiveData Recorder::data(const simplify::SimplifyResult& base) const {
 }  // namespace
 
 ProgressiveResult make_progressive(const Mesh& mesh, const simplify::SimplifyOptions& options) {
-  if (options.collapse != simplify::CollapseKind::half)
-    throw InputError("progressive mesh: expected half-edge collapses, got full-edge: a split does not move its parent back");
   Recorder recorder(mesh);
   simplify::SimplifyOptions observed = options;
   observed.before_collapse = [&](const CollapseMesh& triangles, const CollapseEvent& event) {

@@ -29,7 +29,8 @@ bool finite(const Vec3f& p) { return std::isfinite(p.x) && std::isfinite(p.y) &&
 
 bool operator==(const VertexSplit& a, const VertexSplit& b) {
   return a.parent == b.parent && a.first_wedge == b.first_wedge && a.first_face == b.first_face && a.wedge_of_parent == b.wedge_of_parent &&
-         a.wedge == b.wedge && a.first_corner == b.first_corner && a.right_corner == b.right_corner && a.end_corner == b.end_corner;
+         a.wedge == b.wedge && a.first_corner == b.first_corner && a.right_corner == b.right_corner && a.end_corner == b.end_corner &&
+         a.move == b.move;
 }
 
 ProgressiveMesh::ProgressiveMesh(ProgressiveData data) : data_(std::move(data)) {
@@ -38,12 +39,20 @@ ProgressiveMesh::ProgressiveMesh(ProgressiveData data) : data_(std::move(data)) 
   wedge_order_ = order_of(data_.wedge_ids, "wedge id");
   face_order_ = order_of(data_.face_ids, "face id");
   faces_ = data_.faces;
+  moving_ = !data_.moves.empty();
+  if (moving_) {
+    positions_ = data_.positions, colors_ = data_.colors;
+    for (const Wedge& wedge : data_.wedges) uvs_.push_back(wedge.uv);
+  }
   std::vector<std::uint32_t> wedge_uses = uses_in_base();
   while (level_ < split_count()) {
     check_split(level_);
+    check_move(level_);
     refine();
     check_uses(level_ - 1, wedge_uses);
   }
+  if (coarse_.size() != data_.moves.size())
+    throw InputError(fmt::format("moves: expected {} splits that name one, got {}", data_.moves.size(), coarse_.size()));
   go_to(0);
 }
 
@@ -178,6 +187,25 @@ void ProgressiveMesh::check_split(std::size_t i) const {
   }
 }
 
+// At level `i`: whether split i's move, if it has one, is the next and moves what is there.
+void ProgressiveMesh::check_move(std::size_t i) const {
+  const VertexSplit& s = data_.splits[i];
+  if (s.move == kNone) return;
+  if (s.move != coarse_.size() || s.move >= data_.moves.size())
+    refuse(i, fmt::format("move: expected {} of {}, got {}", coarse_.size(), data_.moves.size(), s.move));
+  const ParentMove& move = data_.moves[s.move];
+  if (!finite(move.position)) refuse(i, "position of the parent: expected finite numbers");
+  for (int k = 0; k < 4 && data_.has_colors; ++k)
+    if (!std::isfinite(move.color[k])) refuse(i, "colour of the parent: expected finite numbers");
+  for (std::size_t side = 0; side < 2; ++side) {
+    const std::uint32_t w = move.wedge[side];
+    if (w == kNone) continue;
+    if (!data_.has_uv || w >= s.first_wedge || data_.wedges[w].vertex.index != s.parent || (side == 1 && w == move.wedge[0]))
+      refuse(i, fmt::format("moved wedge: expected one of the parent {}, got {}", s.parent, w));
+    if (!std::isfinite(move.uv[side].x) || !std::isfinite(move.uv[side].y)) refuse(i, "uv of the parent: expected finite numbers");
+  }
+}
+
 std::size_t ProgressiveMesh::face_count_at(std::size_t level) const {
   return level < split_count() ? data_.splits[level].first_face : data_.faces.size();
 }
@@ -186,8 +214,29 @@ std::size_t ProgressiveMesh::wedge_count_at(std::size_t level) const {
   return level < split_count() ? data_.splits[level].first_wedge : data_.wedges.size();
 }
 
+// What a split's move changes, as it is now.
+ParentMove ProgressiveMesh::moved_state(const VertexSplit& split) const {
+  ParentMove state = data_.moves[split.move];
+  state.position = positions_[split.parent];
+  if (data_.has_colors) state.color = colors_[split.parent];
+  for (std::size_t side = 0; side < 2; ++side)
+    if (state.wedge[side] != kNone) state.uv[side] = uvs_[state.wedge[side]];
+  return state;
+}
+
+void ProgressiveMesh::set_moved(const VertexSplit& split, const ParentMove& state) {
+  positions_[split.parent] = state.position;
+  if (data_.has_colors) colors_[split.parent] = state.color;
+  for (std::size_t side = 0; side < 2; ++side)
+    if (state.wedge[side] != kNone) uvs_[state.wedge[side]] = state.uv[side];
+}
+
 void ProgressiveMesh::refine() {
   const VertexSplit& s = data_.splits[level_++];
+  if (s.move != kNone) {
+    if (s.move == coarse_.size()) coarse_.push_back(moved_state(s));
+    set_moved(s, data_.moves[s.move]);
+  }
   for (std::uint32_t c = s.first_corner; c < s.end_corner; ++c)
     faces_[data_.corners[c] >> 2][data_.corners[c] & 3] = s.wedge[c < s.right_corner ? 0 : 1];
 }
@@ -195,6 +244,7 @@ void ProgressiveMesh::refine() {
 // The faces that go keep the wedges they came with: every later split of theirs has been undone.
 void ProgressiveMesh::coarsen() {
   const VertexSplit& s = data_.splits[--level_];
+  if (s.move != kNone) set_moved(s, coarse_[s.move]);
   for (std::uint32_t c = s.first_corner; c < s.end_corner; ++c)
     faces_[data_.corners[c] >> 2][data_.corners[c] & 3] = s.wedge_of_parent[c < s.right_corner ? 0 : 1];
 }
@@ -224,13 +274,13 @@ Mesh ProgressiveMesh::mesh() const {
   for (const std::uint32_t v : vertex_order_) {
     if (v >= vertex_count()) continue;
     new_vertex[v] = static_cast<std::uint32_t>(result.positions.size());
-    result.positions.push_back(data_.positions[v]);
-    if (data_.has_colors) result.colors.push_back(data_.colors[v]);
+    result.positions.push_back(position(v));
+    if (data_.has_colors) result.colors.push_back(color(v));
   }
   for (const std::uint32_t w : wedge_order_) {
     if (w >= wedge_count_at(level_)) continue;
     new_wedge[w] = static_cast<std::uint32_t>(result.wedges.size());
-    result.wedges.push_back({VertexId(new_vertex[data_.wedges[w].vertex.index]), data_.wedges[w].uv});
+    result.wedges.push_back({VertexId(new_vertex[data_.wedges[w].vertex.index]), uv(w)});
   }
   for (const std::uint32_t f : face_order_) {
     if (f >= face_count()) continue;

@@ -218,6 +218,25 @@ TEST_CASE("progressive: a level of the file is the simplified model; a cut file 
   check_refused({"progressive", "missing.obj", "-o", "b.epm"}, 4, folder, "missing.obj");
 }
 
+TEST_CASE("progressive: full-edge collapses; a level of the file is the simplified model") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "swirl", "--faces", "800", "--texture-size", "64", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code ==
+          0);
+  const CommandResult made = run_etalon(
+      {"progressive", "swirl.obj", "--collapse", "full", "--metric", "qem5", "-o", "swirl.epm", "--json", "-"}, {.folder = folder.path()});
+  REQUIRE(made.exit_code == 0);
+  CHECK(checked_document(made, "progressive.json")["collapse"] == "full");
+  REQUIRE(run_etalon({"progressive", "swirl.epm", "--faces", "300", "-o", "level.obj"}, {.folder = folder.path()}).exit_code == 0);
+  REQUIRE(run_etalon({"simplify", "swirl.obj", "--collapse", "full", "--metric", "qem5", "--faces", "300", "-o", "direct.obj"},
+                     {.folder = folder.path()})
+              .exit_code == 0);
+  CHECK(json::parse(
+            run_etalon({"metro", "level.obj", "direct.obj", "--samples", "1000", "--json", "-"}, {.folder = folder.path()}).out)["max"] <
+        1e-12);
+  check_refused({"progressive", "swirl.obj", "--collapse", "full", "--metric", "aps", "-o", "b.epm"}, 64, folder, "--collapse half");
+  check_refused({"progressive", "swirl.epm", "--faces", "3", "--collapse", "full", "-o", "b.ply"}, 64, folder, "--collapse");
+}
+
 TEST_CASE("progressive: materials keep their names and their faces") {
   const ScratchFolder folder;
   folder.file("two.mtl", "newmtl wood\nnewmtl old skin\n");

@@ -105,6 +105,30 @@ TEST_CASE("data go through the file unchanged, and equal data are equal bytes") 
   }
 }
 
+TEST_CASE("moves of full-edge collapses go through the file; a file without them is as it was") {
+  for (const bool coloured : {false, true}) {
+    const Mesh mesh = coloured ? coloured_seams() : bumpy_sphere(4, 0.2f, 1);
+    const ProgressiveData data = make_progressive(mesh, {.collapse = simplify::CollapseKind::full, .target_faces = 0}).data;
+    REQUIRE(data.moves.size() > 3);
+    const std::string file = encode_epm(data);
+    CHECK(decode_epm(bytes_of(file)).mesh.data() == data);
+    CHECK(encode_epm(decode_epm(bytes_of(file)).mesh.data()) == file);
+    CHECK((file[28] & 8) == 8);  // flags: behind the signature, the chunk's head and the version
+    CHECK((file_of(mesh)[28] & 8) == 0);
+    const std::size_t block = chunks_of(file)[2];
+    std::uint64_t size = 0;
+    std::memcpy(&size, file.data() + block + 8, 8);
+    bool refused_move = false;
+    for (std::size_t at = block + 16; at < block + 16 + size && !refused_move; ++at) {
+      std::string damaged_here = file;
+      damaged_here[at] = 8;
+      mend_checksum(damaged_here, block);
+      refused_move = message_of(damaged_here).find("move: expected 0, or 1 and perhaps 2 and 4, got 8") != std::string::npos;
+    }
+    CHECK(refused_move);
+  }
+}
+
 TEST_CASE("every prefix is refused, or holds the splits of its whole blocks") {
   const std::string file = file_of(bumpy_grid(12, 0.3f, 2));
   const EpmContent whole = decode_epm(bytes_of(file));
@@ -150,7 +174,7 @@ TEST_CASE("what is wrong is said, with its place") {
   CHECK(message_of("etalonXX" + file.substr(8)).find("signature") != std::string::npos);
   CHECK(message_of(file.substr(0, 20)) == "byte 8: the file ends inside its HEAD chunk");
   CHECK(after(0, 16, 2) == "version: expected 1, got 2");
-  CHECK(after(0, 20, 9) == "flags: expected at most 7, got 9");
+  CHECK(after(0, 20, 16) == "flags: expected at most 15, got 16");
   CHECK(after(0, 0, 'B').find("byte 8: expected the HEAD chunk") == 0);
   CHECK(after(1, 0, 'X').find("expected the BASE chunk") != std::string::npos);
   CHECK(after(2, 0, 'X').find("got an unknown one") != std::string::npos);
@@ -227,9 +251,10 @@ TEST_CASE("mutants are refused or are meshes; half of them with checksums made r
   const char* full = std::getenv("ETALON_FULL");
   ProgressiveData named = make_progressive(coloured_seams(), {.target_faces = 0}).data;
   named.material_names = {"a", "b", "c", "d"};
+  const simplify::SimplifyOptions full_edge{.collapse = simplify::CollapseKind::full, .target_faces = 0};
   const std::vector<std::string> files{file_of(bumpy_grid(5, 0.3f, 2)),
                                        encode_epm(named, {{"BMAP", 0, "map"}, {"CELL", named.splits.size(), "cell"}}),
-                                       file_of(bumpy_sphere(3, 0.2f, 1))};
+                                       file_of(bumpy_sphere(3, 0.2f, 1)), encode_epm(make_progressive(coloured_seams(), full_edge).data)};
   Rng rng(8);
   std::size_t mended = 0, mended_refused = 0, broken_taken = 0;
   const int count = full != nullptr && *full != '\0' ? 1'000'000 : 20'000;

@@ -10,11 +10,38 @@
 
 using namespace etalon;
 using namespace etalon::progressive;
+using simplify::CollapseKind;
+using simplify::MetricName;
 using namespace etalon::test;
 
 namespace {
 
 ProgressiveData data_of(const Mesh& mesh) { return make_progressive(mesh, {.target_faces = 0}).data; }
+
+/// Goes through all levels, up and down; returns what they are made of.
+ProgressiveData check_all_levels(const Mesh& mesh, const simplify::SimplifyOptions& options) {
+  const ProgressiveResult made = make_progressive(mesh, options);
+  ProgressiveMesh progressive(made.data);
+  CHECK(progressive.level() == 0);
+  CHECK(progressive.mesh() == made.simplified.mesh);
+  CHECK(progressive.split_count() == made.simplified.collapse_count);
+  std::vector<Mesh> up;
+  for (std::size_t level = 0; level <= progressive.split_count(); ++level) {
+    progressive.go_to(level);
+    REQUIRE(progressive.violation() == "");
+    up.push_back(progressive.mesh());
+    if (level % 7 != 0 && level != progressive.split_count()) continue;
+    simplify::SimplifyOptions direct = options;
+    direct.target_faces = progressive.face_count();
+    REQUIRE(up.back() == simplify::simplify_mesh(mesh, direct).mesh);
+  }
+  CHECK(up.back().face_count() == mesh.face_count());
+  for (std::size_t level = progressive.split_count() + 1; level-- > 0;) {
+    progressive.go_to(level);
+    REQUIRE(progressive.mesh() == up[level]);
+  }
+  return made.data;
+}
 
 /// The first split that has two corners on its left side.
 VertexSplit& with_corners(ProgressiveData& data) {
@@ -39,26 +66,24 @@ std::string message_after(const Damage& damage) {
 }  // namespace
 
 TEST_CASE("every level is a mesh, and the one that direct simplification gives, on the way up and down") {
-  for (const NamedMesh& sample : sample_meshes()) {
-    CAPTURE(sample.name);
-    const ProgressiveResult made = make_progressive(sample.mesh, {.target_faces = 0});
-    ProgressiveMesh progressive(made.data);
-    CHECK(progressive.level() == 0);
-    CHECK(progressive.mesh() == made.simplified.mesh);
-    CHECK(progressive.split_count() == made.simplified.collapse_count);
-    std::vector<Mesh> up;
-    for (std::size_t level = 0; level <= progressive.split_count(); ++level) {
-      progressive.go_to(level);
-      REQUIRE(progressive.violation() == "");
-      up.push_back(progressive.mesh());
-      if (level % 7 == 0 || level == progressive.split_count())
-        REQUIRE(up.back() == simplify::simplify_mesh(sample.mesh, {.target_faces = progressive.face_count()}).mesh);
+  for (const NamedMesh& sample : sample_meshes())
+    for (const CollapseKind collapse : {CollapseKind::half, CollapseKind::full}) {
+      CAPTURE(sample.name);
+      CAPTURE(to_string(collapse));
+      check_all_levels(sample.mesh, {.collapse = collapse, .target_faces = 0});
     }
-    CHECK(up.back().face_count() == sample.mesh.face_count());
-    for (std::size_t level = progressive.split_count() + 1; level-- > 0;) {
-      progressive.go_to(level);
-      REQUIRE(progressive.mesh() == up[level]);
-    }
+}
+
+TEST_CASE("full-edge collapses by every metric that knows them: both old vertices come back with all they had") {
+  Mesh mesh = seamed_grid(6, 0.2f, 4);
+  for (const Vec3f& p : mesh.positions) mesh.colors.push_back({0.5f + 0.1f * p.x, 0.5f + 0.1f * p.y, 0.5f + 0.2f * p.z, 0.75f});
+  for (const MetricName metric : {MetricName::qem, MetricName::qem5, MetricName::qem6, MetricName::hoppe}) {
+    CAPTURE(to_string(metric));
+    const ProgressiveData data = check_all_levels(mesh, {.metric = metric, .collapse = CollapseKind::full, .target_faces = 0});
+    CHECK(data.moves.size() > 5);
+    std::size_t on_seam = 0;
+    for (const ParentMove& move : data.moves) on_seam += move.wedge[0] != kNone && move.wedge[1] != kNone ? 1 : 0;
+    CHECK(on_seam > 0);
   }
 }
 
@@ -185,4 +210,43 @@ TEST_CASE("data that is no progressive mesh is refused, and says what is wrong")
   says(message_after([](ProgressiveData& d) { d.corners[with_corners(d).first_corner + 1] = d.corners[with_corners(d).first_corner]; }),
        "corners: expected each once");
   says(message_after([](ProgressiveData& d) { d.corners[with_corners(d).first_corner] ^= 3; }), "corner");
+  says(message_after([](ProgressiveData& d) { d.moves.resize(1); }), "moves: expected 1 splits that name one, got 0");
+}
+
+TEST_CASE("moves that are none are refused, and say what is wrong") {
+  const auto message_with = [](const auto& damage) -> std::string {
+    ProgressiveData data = make_progressive(seamed_grid(6, 0.2f, 4), {.collapse = CollapseKind::full, .target_faces = 0}).data;
+    std::size_t first = 0;
+    while (data.splits[first].move == kNone || data.moves[data.splits[first].move].wedge[0] == kNone) ++first;
+    damage(data, data.splits[first], data.moves[data.splits[first].move]);
+    try {
+      const ProgressiveMesh mesh(std::move(data));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto says = [](const std::string& message, const std::string& part) {
+    CAPTURE(message);
+    CAPTURE(part);
+    CHECK(message.find(part) != std::string::npos);
+  };
+  const float bad = std::numeric_limits<float>::quiet_NaN();
+  CHECK(message_with([](auto&, auto&, auto&) {}) == "");
+  says(message_with([](auto&, auto& split, auto&) { ++split.move; }), "move: expected ");
+  says(message_with([](auto& data, auto&, auto&) { data.moves.pop_back(); }), "move: expected ");
+  says(message_with([&](auto&, auto&, auto& move) { move.position.y = bad; }), "position of the parent: expected finite");
+  says(message_with([&](auto&, auto&, auto& move) { move.uv[0].y = bad; }), "uv of the parent: expected finite");
+  says(message_with([&](auto& data, auto&, auto& move) {
+         data.has_colors = true, data.colors.assign(data.positions.size(), {0, 0, 0, 1});
+         move.color.x = bad;
+       }),
+       "colour of the parent: expected finite");
+  says(message_with([](auto& data, auto&, auto& move) { move.wedge[0] = static_cast<std::uint32_t>(data.wedges.size()); }),
+       "moved wedge: expected one of the parent");
+  says(message_with([](auto&, auto&, auto& move) { move.wedge[1] = move.wedge[0]; }), "moved wedge: expected one of the parent");
+  says(message_with([](auto& data, auto& split, auto& move) {
+         while (data.wedges[move.wedge[0]].vertex.index == split.parent) move.wedge[0] = (move.wedge[0] + 1) % data.base_wedges;
+       }),
+       "moved wedge: expected one of the parent");
 }

@@ -75,23 +75,26 @@ std::optional<Mesh> real_mesh(const std::string& path, bool flip) {
 }
 
 /// The digest of the mesh after each collapse of one direct run, every `step`-th from the end on; by level.
-std::vector<std::pair<std::size_t, std::uint64_t>> direct_levels(const Mesh& mesh, std::size_t collapses, std::size_t step) {
+std::vector<std::pair<std::size_t, std::uint64_t>> direct_levels(const Mesh& mesh, std::size_t collapses, std::size_t step,
+                                                                 simplify::SimplifyOptions options) {
   std::vector<std::pair<std::size_t, std::uint64_t>> levels;
   std::size_t done = 0;
-  (void)simplify::simplify_mesh(mesh, {.target_faces = 0, .after_collapse = [&](const simplify::CollapseMesh& triangles) {
-                                         const std::size_t level = collapses - ++done;
-                                         if (level % step != 0) return;
-                                         simplify::SimplifyResult result;
-                                         extract(triangles, result);
-                                         levels.emplace_back(level, Digest(result.mesh).value());
-                                       }});
+  options.after_collapse = [&](const simplify::CollapseMesh& triangles) {
+    const std::size_t level = collapses - ++done;
+    if (level % step != 0) return;
+    simplify::SimplifyResult result;
+    extract(triangles, result);
+    levels.emplace_back(level, Digest(result.mesh).value());
+  };
+  (void)simplify::simplify_mesh(mesh, options);
   return levels;
 }
 
-void check_levels(const Mesh& mesh, bool is_closed, std::size_t step, std::size_t separate_runs) {
-  ProgressiveMesh progressive(make_progressive(mesh, {.target_faces = 0}).data);
+void check_levels(const Mesh& mesh, bool is_closed, std::size_t step, std::size_t separate_runs,
+                  simplify::SimplifyOptions options = {.target_faces = 0}) {
+  ProgressiveMesh progressive(make_progressive(mesh, options).data);
   const std::size_t top = progressive.split_count();
-  const auto direct = direct_levels(mesh, top, step);
+  const auto direct = direct_levels(mesh, top, step, options);
   REQUIRE(direct.size() == (top - 1) / step + 1);
   for (const auto& [level, digest] : direct) {  // downwards
     progressive.go_to(level);
@@ -104,7 +107,8 @@ void check_levels(const Mesh& mesh, bool is_closed, std::size_t step, std::size_
   }
   for (std::size_t i = 0; i <= separate_runs; ++i) {  // upwards, against runs of their own, byte for byte
     progressive.go_to(top * i / separate_runs);
-    REQUIRE(progressive.mesh() == simplify::simplify_mesh(mesh, {.target_faces = progressive.face_count()}).mesh);
+    options.target_faces = progressive.face_count();
+    REQUIRE(progressive.mesh() == simplify::simplify_mesh(mesh, options).mesh);
   }
   CHECK(progressive.mesh() == mesh);
 }
@@ -138,6 +142,14 @@ TEST_CASE("the head: every level is the one of direct simplification, closed, an
   const auto mesh = real_mesh("lee_perry_smith/LeePerrySmith.glb", true);
   if (!mesh) return test::report_skip("the head at every level", "no LeePerrySmith.glb under $ETALON_DATA");
   check_levels(*mesh, true, 1, full_suite() ? 100 : 5);
+}
+
+TEST_CASE("spot and the head by full-edge collapses: the same") {
+  const auto spot = real_mesh("spot/spot_triangulated.obj", false), head = real_mesh("lee_perry_smith/LeePerrySmith.glb", true);
+  if (!spot || !head) return test::report_skip("full-edge levels of spot and the head", "not under $ETALON_DATA");
+  using simplify::CollapseKind, simplify::MetricName;
+  check_levels(*spot, true, full_suite() ? 1 : 10, 4, {.metric = MetricName::qem5, .collapse = CollapseKind::full, .target_faces = 0});
+  check_levels(*head, true, full_suite() ? 1 : 50, 3, {.metric = MetricName::qem, .collapse = CollapseKind::full, .target_faces = 0});
 }
 
 TEST_CASE("a Kinect frame: levels far apart, and the last is the input") {
