@@ -5,6 +5,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
@@ -33,6 +34,8 @@ struct Options {
   std::vector<std::string> jobs = verify_jobs();
   std::string size;  ///< empty: the view files'
   std::vector<std::string> views;
+  std::int64_t faces = 0;
+  int map_size = 256;
   std::string report = "etalon-report";
   ModelOptions model;
   GlOptions gl;
@@ -65,6 +68,8 @@ VerifyOptions verify_options(const Options& options, Console& console, CallFiles
   const FrameSize size = frame_size(options.size, views);
   result.width = size.width;
   result.height = size.height;
+  result.adapt_faces = static_cast<std::size_t>(options.faces);
+  result.adapt_size = options.map_size;
   result.jobs.clear();
   for (const std::string& job : verify_jobs()) {  // each once, in the order they are done
     if (std::find(options.jobs.begin(), options.jobs.end(), job) != options.jobs.end()) result.jobs.push_back(job);
@@ -181,10 +186,16 @@ Verb add_verify(CLI::App& root) {
   CLI::App* app = root.add_subcommand("verify", "Draw models on the exact rasterizer and on OpenGL, and explain every texel that differs");
   app->add_option("models", options->models, "Mesh files: .obj, .ply, .glb, .gltf (default: the embedded head and swirl)")
       ->type_name("MODEL");
-  app->add_option("--jobs", options->jobs, "Jobs to do, with commas: render, indexed")
+  app->add_option("--jobs", options->jobs, fmt::format("Jobs to do, with commas: {} (default: all)", fmt::join(verify_jobs(), ", ")))
       ->type_name("LIST")
       ->delimiter(',')
       ->check(CLI::IsMember(verify_jobs()));
+  app->add_option("--faces", options->faces, "Job adapt: its coarsest level has at most so many triangles (default: a tenth)")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 32));
+  app->add_option("--map-size", options->map_size, "Job adapt: side of its map in texels (default 256)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 8192));
   app->add_option("--size", options->size, "Frame, WxH or one number (default: the view file's, else 1024)")
       ->type_name("WxH")
       ->check(not_empty());

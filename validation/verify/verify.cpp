@@ -3,13 +3,17 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/error.h"
+#include "validation/verify/verify_adapt.h"
 #include "validation/verify/verify_case.h"
 #include "validation/verify/verify_maps.h"
 
 namespace etalon::validation {
 namespace {
+
+constexpr const char* kAdapt = "adapt";
 
 /// A scene that is still to be drawn.
 struct Plan {
@@ -73,12 +77,14 @@ struct JobPlan {
 
 JobPlan plan_job(const std::string& job, const std::vector<VerifyModel>& models, const VerifyOptions& options) {
   JobPlan result{job, {}, ""};
-  if (job != "render" && job != "indexed") throw InputError(fmt::format("verify: expected a job of render, indexed, got '{}'", job));
+  if (std::find(verify_jobs().begin(), verify_jobs().end(), job) == verify_jobs().end())
+    throw InputError(fmt::format("verify: expected a job of {}, got '{}'", fmt::join(verify_jobs(), ", "), job));
+  if (job == kAdapt) return result;
   for (const VerifyModel& model : models) {
     const std::vector<Plan> plans = job == "render" ? plan_render(model, options) : plan_indexed(model, options);
     result.plans.insert(result.plans.end(), plans.begin(), plans.end());
   }
-  if (result.plans.empty()) result.skipped = "no texture coordinates (try a model that has them, or `etalon make head -o head.obj`)";
+  if (result.plans.empty()) result.skipped = kNoTextureCoordinates;
   return result;
 }
 
@@ -119,6 +125,26 @@ CaseResult run_case(const std::string& job, const Plan& plan, const Frame& frame
   return item;
 }
 
+// Its scenes are made as they are drawn, so they are no plans.
+JobResult run_adapt(const std::vector<VerifyModel>& models, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options) {
+  JobResult result{kAdapt, "", {}};
+  std::string reason;
+  for (const VerifyModel& model : models) {
+    const auto progress = [&](std::size_t done, std::size_t total) {
+      if (options.on_progress)
+        options.on_progress(fmt::format("{}: {}", kAdapt, model.name), static_cast<int>(done), static_cast<int>(total));
+    };
+    AdaptCases made = adapt_cases(model, exact, device, options, progress);
+    if (!made.skipped.empty()) reason = made.skipped;
+    for (CaseResult& item : made.cases) {
+      if (options.on_case) options.on_case(item);
+      result.cases.push_back(std::move(item));
+    }
+  }
+  if (result.cases.empty()) result.skipped = reason;
+  return result;
+}
+
 // What was asked for and is drawn otherwise. Not half rounding: no target of a scene holds halves.
 std::vector<std::string> state_notes(const RasterState& wanted, const RasterState& drawn) {
   std::vector<std::string> notes;
@@ -146,7 +172,7 @@ void describe_sides(VerifyResult& result, const Renderer& exact, const VerifyDev
 }  // namespace
 
 const std::vector<std::string>& verify_jobs() {
-  static const std::vector<std::string> kJobs{"render", "indexed"};
+  static const std::vector<std::string> kJobs{"render", "indexed", kAdapt};
   return kJobs;
 }
 
@@ -170,6 +196,10 @@ VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact,
   }
   int done = 0;
   for (const JobPlan& job : jobs) {
+    if (job.job == kAdapt) {
+      result.jobs.push_back(run_adapt(models, exact, device, options));
+      continue;
+    }
     JobResult job_result{job.job, job.skipped, {}};
     for (const Plan& plan : job.plans) {
       if (options.on_progress)

@@ -31,13 +31,15 @@ struct NamedView {
 };
 
 struct VerifyOptions {
-  std::vector<std::string> jobs{"render", "indexed"};
+  std::vector<std::string> jobs{"render", "indexed", "adapt"};
   std::vector<NamedView> views{{"fit", {}}, {"front", {}}};  ///< the job `indexed` uses the first
   int width = 1024;
   int height = 1024;
-  RasterState state;      ///< wanted; drawn is what the device supports of it
-  int picture_px = 1024;  ///< longest side of the pictures that are kept
-  int worst_count = 6;    ///< texels a scene that are shown with their surroundings
+  int adapt_size = 256;         ///< of the job `adapt`: side of its map in texels
+  std::size_t adapt_faces = 0;  ///< and its coarsest level; 0: a tenth of the model's
+  RasterState state;            ///< wanted; drawn is what the device supports of it
+  int picture_px = 1024;        ///< longest side of the pictures that are kept
+  int worst_count = 6;          ///< texels a scene that are shown with their surroundings
   /// Called before each step with its label, how many are done, and of how many; may be empty.
   std::function<void(const std::string& label, int done, int total)> on_progress;
   /// Called after each scene; may be empty.

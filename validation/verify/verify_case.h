@@ -12,7 +12,4 @@ namespace etalon::validation {
 void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Renderer& exact, const VerifyDevice& device,
                   const VerifyOptions& options, const std::function<DrawList(SnapRounding)>& scene_with_snap = {});
 
-/// The channels of texel (x, y) as stored: "120 44 31 255", "0.5123458", "-" for no triangle.
-[[nodiscard]] std::string texel_text(const Image& image, int x, int y);
-
 }  // namespace etalon::validation

@@ -51,6 +51,7 @@ VerifyModel swirl_model() {
 
 VerifyOptions small() {
   VerifyOptions options;
+  options.jobs = {"render", "indexed"};
   options.width = 48;
   options.height = 40;
   options.picture_px = 48;
