@@ -14,11 +14,6 @@ namespace {
 // Packs that are handed to the renderer together.
 constexpr std::size_t kPacksAtOnce = 16;
 
-// A split writes kGutterTexels beyond its cells, reads one more, and its plan looks at the charts kGutterTexels beyond what it writes. Two
-// regions grown by this much and apart keep the one from reading, or planning with, what the other changes: 2·3 >= max(2 + 3, 2·2).
-constexpr int kReachWithGutter = 3;
-static_assert(kGutterTexels == 2);
-
 void add_cells(const RingCells& cells, AdaptDirection direction, int width, int height, const RasterState& state, MapPass& pass) {
   const bool forward = direction == AdaptDirection::to_before;
   const auto first = static_cast<std::uint32_t>(pass.vertices.size());
@@ -76,7 +71,7 @@ AdaptCounts adapt_map(Renderer& renderer, const AdaptSequence& sequence, std::si
     counts.gutter = plan.texels.size(), counts.uncovered = plan.uncovered, counts.doubled = plan.doubled;
   }
   const GutterPlan* const gutter = options.gutter != nullptr ? &plan : nullptr;
-  const auto packs = pack_splits(sequence, from, to, map.width(), map.height(), gutter != nullptr ? kReachWithGutter : 1);
+  const auto packs = pack_splits(sequence, from, to, map.width(), map.height(), pack_reach(gutter != nullptr));
   const MapState state{options.filter, renderer.supported_state({})};
   const std::unique_ptr<ResidentMap> resident = renderer.make_map(map, state);
   std::vector<MapPass> passes;

@@ -28,6 +28,14 @@ struct AdaptCounts {
   std::size_t gutter = 0, uncovered = 0, doubled = 0;
 };
 
+/// How far apart pack_splits() must keep regions. A lookup reads one texel beyond the cells. With a gutter a split writes kGutterTexels beyond
+/// them, reads one more, and its plan looks at the charts kGutterTexels beyond what it writes: two regions that are grown by 3 and still apart keep
+/// the one from reading, or planning with, what the other changes, since 2·3 >= max(2 + 3, 2·2).
+[[nodiscard]] constexpr int pack_reach(bool with_gutter) {
+  static_assert(kGutterTexels == 2);
+  return with_gutter ? 3 : 1;
+}
+
 /// The cells of `splits` (disjoint regions, see pack_splits), a group each, as one pass over a map of that size: corners on the sub-texel grid of
 /// `state`, their coordinates in the map before. Where snapping lets two cells of a split have a texel, the lower one is drawn last. Texels of
 /// `gutter` come after the cells of their split, each as a triangle of its own with one coordinate.

@@ -162,15 +162,21 @@ std::string class_table(const VerifyResult& result) {
                             tally_cells(result.total()));
 }
 
+const char* lead_of(const std::string& job) {
+  if (job == "indexed") return "The texture is read through an indexing map: a first look-up gives the coordinate of a second one.";
+  if (job == "adapt")
+    return "An indexing map is re-sampled, collapse by collapse, for a coarser mesh, and back. Each texel of each pass is compared; the "
+           "pictures "
+           "are the maps that come out in the end, red and green being the coordinates they hold.";
+  return "The textured model, in perspective, with depth test.";
+}
+
 std::string job_sections(const VerifyResult& result) {
   std::string html;
   for (std::size_t j = 0; j < result.jobs.size(); ++j) {
     const JobResult& job = result.jobs[j];
     if (job.cases.empty()) continue;
-    const char* lead = job.job == "indexed"
-                           ? "The texture is read through an indexing map: a first look-up gives the coordinate of a second one."
-                           : "The textured model, in perspective, with depth test.";
-    html += fmt::format("<h2 id=\"job-{0}\">{0}</h2><p class=\"lede\">{1}</p>", escaped(job.job), lead);
+    html += fmt::format("<h2 id=\"job-{0}\">{0}</h2><p class=\"lede\">{1}</p>", escaped(job.job), lead_of(job.job));
     for (std::size_t i = 0; i < job.cases.size(); ++i) html += case_article(job.cases[i], fmt::format("case-{}-{}", j, i));
   }
   return html;

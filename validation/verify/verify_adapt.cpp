@@ -36,14 +36,17 @@ Way make_way(const VerifyModel& model, const VerifyOptions& options, const Raste
   mesh.go_to(mesh.split_count());
   way.fine_faces = mesh.face_count();
   const adapt::AdaptSequence sequence(mesh);
+  const adapt::ChartBorders borders(mesh);
+  adapt::Gutter gutter(borders, options.adapt_size, options.adapt_size);
   mesh.go_to(0);
   way.coarse_faces = mesh.face_count();
   const int size = options.adapt_size;
   const auto passes = [&](std::size_t from, std::size_t to) {
     const auto direction = to < from ? adapt::AdaptDirection::to_before : adapt::AdaptDirection::to_after;
     std::vector<MapPass> result;
-    for (const auto& pack : adapt::pack_splits(sequence, from, to, size, size)) {
-      result.push_back(adapt::cell_pass(sequence, pack, direction, size, size, state));
+    const adapt::GutterPlan plan = gutter.go_to(sequence, to);
+    for (const auto& pack : adapt::pack_splits(sequence, from, to, size, size, adapt::pack_reach(true))) {
+      result.push_back(adapt::cell_pass(sequence, pack, direction, size, size, state, &plan));
       way.adaptations += pack.size();
     }
     return result;
@@ -94,13 +97,13 @@ class AdaptCase {
 
   void run(CaseResult& item, const std::function<void()>& after_pass) {
     item.width = frame_.width, item.height = frame_.height;
-    for (const std::vector<MapPass>* passes : {&way_.down, &way_.up}) {
+    for (const auto& [passes, faces] : {std::pair{&way_.down, way_.coarse_faces}, {&way_.up, way_.fine_faces}}) {
       for (const MapPass& pass : *passes) {
         do_pass(item, pass);
         after_pass();
       }
       compare_resident(item, *passes);
-      add_map(item);
+      add_map(item, faces);
     }
     if (device_.renderer != nullptr) {
       const int reach = mark_reach(frame_, options_.picture_px);
@@ -180,7 +183,7 @@ class AdaptCase {
   }
 
   /// The maps of both ways, as they are now.
-  void add_map(CaseResult& item) {
+  void add_map(CaseResult& item, std::size_t faces) {
     DrawnPair pair;
     pair.cpu = {exact_map_};
     if (device_.renderer != nullptr) pair.gl = {device_map_};
@@ -188,6 +191,7 @@ class AdaptCase {
     frame.targets.resize(1);
     picture_targets(pair, frame);
     item.targets.push_back(measure_target(pair, 0, frame.targets[0], options_.picture_px, mark_reach(frame, options_.picture_px)));
+    item.targets.back().content = fmt::format("map at {} faces", faces);
     if (item_map_.empty()) item_map_ = exact_map_;
   }
 
