@@ -6,7 +6,7 @@
 
 namespace etalon::bench {
 
-BenchScene adapt_scene(int size, std::size_t faces) {
+BenchScene adapt_scene(int size, Filter filter, std::size_t faces) {
   simplify::SimplifyOptions options;
   options.metric = simplify::MetricName::qem5;
   options.target_faces = faces;
@@ -15,6 +15,7 @@ BenchScene adapt_scene(int size, std::size_t faces) {
   BenchScene scene;
   MapWork& work = scene.map_work.emplace();
   work.map = adapt::identity_map(size, size);
+  work.filter = filter;
   const auto pass_of = [&](std::span<const std::uint32_t> splits) {
     return adapt::cell_pass(sequence, splits, adapt::AdaptDirection::to_before, size, size, {});
   };

@@ -6,6 +6,6 @@
 namespace etalon::bench {
 
 /// The passes that take an indexing map (RG32F, size × size) from the finest level to the base, packed and one by one.
-[[nodiscard]] BenchScene adapt_scene(int size, std::size_t faces = 499);
+[[nodiscard]] BenchScene adapt_scene(int size, Filter filter, std::size_t faces = 499);
 
 }  // namespace etalon::bench

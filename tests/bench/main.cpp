@@ -43,9 +43,12 @@ class PlainReporter : public benchmark::ConsoleReporter {
 std::vector<SceneEntry> all_entries() {
   std::vector<SceneEntry> entries = scene_entries();
   entries.push_back({kFans, "10,000 fans, RG32F map to map", [] { return fan_scene(); }});
-  for (const int size : {1024, 256})
-    entries.push_back({fmt::format("adapt_{}", size), fmt::format("texture adaptation, 7,684 → 499 faces, {}² RG32F, linear", size),
-                       [size] { return adapt_scene(size); }, 1});  // roundings add up over the passes: what they are, etalon verify says
+  for (const Filter filter : {Filter::linear, Filter::nearest})
+    for (const int size : {1024, 256})
+      entries.push_back({fmt::format("adapt_{}_{}", to_string(filter), size),
+                         fmt::format("texture adaptation, 7,684 → 499 faces, {}² RG32F, {}", size, to_string(filter)),
+                         [=] { return adapt_scene(size, filter); },
+                         1});  // roundings add up over the passes: what they are, etalon verify says
   return entries;
 }
 

@@ -21,11 +21,21 @@ struct Goal {
 
 // At two threads each, with AVX2.
 constexpr Goal kGoals[] = {
-    {"small_triangles", kRivalDraw, 2},   {"head_nearest", kRivalDraw, 2},     {"head_linear", kRivalDraw, 1},
-    {"real_head_nearest", kRivalDraw, 2}, {"real_head_linear", kRivalDraw, 1}, {"screen", kRivalDraw, 1},
-    {"screen_half_texel", kRivalDraw, 1}, {"screen_rotated", kRivalDraw, 1},   {kFans, kRivalOneFan, 10},
-    {kFans, kRivalManyFans, 4},           {"adapt_1024", kRivalOneByOne, 4},   {"adapt_1024", kRivalPacked, 1.5},
-    {"adapt_256", kRivalOneByOne, 10},    {"adapt_256", kRivalPacked, 3},      {"knot", kRivalDraw, 2},
+    {"small_triangles", kRivalDraw, 2},
+    {"head_nearest", kRivalDraw, 2},
+    {"head_linear", kRivalDraw, 1},
+    {"real_head_nearest", kRivalDraw, 2},
+    {"real_head_linear", kRivalDraw, 1},
+    {"screen", kRivalDraw, 1},
+    {"screen_half_texel", kRivalDraw, 1},
+    {"screen_rotated", kRivalDraw, 1},
+    {kFans, kRivalOneFan, 10},
+    {kFans, kRivalManyFans, 4},
+    {"adapt_linear_1024", kRivalOneByOne, 4},
+    {"adapt_linear_1024", kRivalPacked, 1.5},
+    {"adapt_linear_256", kRivalOneByOne, 10},
+    {"adapt_linear_256", kRivalPacked, 3},
+    {"knot", kRivalDraw, 2},
     {"terrain", kRivalDraw, 2},
 };
 
