@@ -1,24 +1,25 @@
 #include "cli/adapt_command.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "cli/adapt_images.h"
+#include "cli/adapt_input.h"
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/model_input.h"
 #include "cli/size_option.h"
 #include "cli/usage_error.h"
-#include "core/adapt/adapt_map.h"
 #include "core/adapt/cell_chunks.h"
+#include "core/adapt/resolve_texture.h"
 #include "core/io/atomic_file.h"
 #include "core/io/image_file.h"
 #include "core/io/inputs.h"
@@ -34,151 +35,157 @@ using Json = nlohmann::ordered_json;
 using validation::grouped;
 
 struct Options {
-  std::string input, texture, output, map, size = "1024", format = "float32", filter = "linear";
+  std::string input, output, map, size = "1024", format = "float32", filter = "linear";
+  std::vector<std::string> textures;
+  bool through_map = false, analytic = false;
   std::int64_t faces = 0;
   CommonOptions common;
 };
 
-struct Work {
-  progressive::ProgressiveMesh mesh;
-  adapt::AdaptSequence sequence;
-  std::size_t level;
-  Filter filter;
-};
-
-Image adapted(const Work& work, Image map, const std::string& what, Console& console, adapt::AdaptCounts& counts) {
-  raster::CpuRenderer renderer;
-  adapt::AdaptOptions how{.filter = work.filter, .progress = {}};
-  how.progress = [&](std::size_t done, std::size_t total) { console.progress(what, static_cast<int>(done), static_cast<int>(total)); };
-  counts = adapt::adapt_map(renderer, work.sequence, work.sequence.size(), work.level, map, how);
-  return map;
-}
-
-// How far, in texels of the map, a map's texels point from where the chain of cells leads without resampling; of a grid of texels.
-Json map_errors(const Work& work, const Image& map) {
-  constexpr int kAlong = 64;
-  std::vector<double> errors;
-  const auto stride = [](int size) { return std::max(1, size / kAlong); };
-  for (int y = stride(map.height()) / 2; y < map.height(); y += stride(map.height()))
-    for (int x = stride(map.width()) / 2; x < map.width(); x += stride(map.width())) {
-      const Vec2d truth = work.sequence.follow({(x + 0.5) / map.width(), (y + 0.5) / map.height()}, work.level, work.sequence.size());
-      const Vec2d at = adapt::map_coordinate(map, x, y);
-      const double dx = (at.x - truth.x) * map.width(), dy = (at.y - truth.y) * map.height();
-      errors.push_back(std::sqrt(dx * dx + dy * dy));
-    }
-  std::sort(errors.begin(), errors.end());
-  return {{"median", errors[errors.size() / 2]}, {"p99", errors[errors.size() * 99 / 100]}, {"max", errors.back()}};
-}
-
-constexpr std::pair<const char*, ChannelType> kFormats[] = {
-    {"float32", ChannelType::float32}, {"half", ChannelType::half}, {"unorm16", ChannelType::unorm16}, {"unorm8", ChannelType::unorm8}};
-
-ChannelType format_named(const std::string& name) {
-  return std::find_if(std::begin(kFormats), std::end(kFormats), [&](const auto& format) { return name == format.first; })->second;
-}
-
-// PNG has no two channels: a third one of zeros is added, which lookups through the map do not read.
-Image with_third_channel(const Image& map) {
-  Image result(map.width(), map.height(), {map.format().type, 3});
-  const auto channel_bytes = static_cast<std::size_t>(bytes_per_channel(map.format().type));
-  for (std::size_t n = 0; n < map.texel_count(); ++n)
-    std::memcpy(result.bytes().data() + n * 3 * channel_bytes, map.bytes().data() + n * 2 * channel_bytes, 2 * channel_bytes);
-  return result;
-}
-
-void write_map(const std::string& path, const Image& map) {
-  const bool floating = map.format().type == ChannelType::float32 || map.format().type == ChannelType::half;
-  io::write_image(path, floating ? map : with_third_channel(map));
-}
-
 void require_options(const Options& options) {
-  if (options.output.empty() && options.map.empty()) throw UsageError("adapt: expected --map FILE.exr, or --texture IMG with -o MODEL");
-  if (options.output.empty() != options.texture.empty()) throw UsageError("adapt: --texture IMG and -o MODEL go together");
+  if (options.output.empty() && options.map.empty()) throw UsageError("adapt: expected --map FILE, or --texture IMG with -o MODEL");
+  if (options.output.empty() != options.textures.empty()) throw UsageError("adapt: --texture IMG and -o MODEL go together");
   if (options.output == "-" || options.map == "-") throw UsageError("adapt: expected files, got '-'");
+  if (options.through_map && options.textures.empty()) throw UsageError("adapt: --through-map: expected --texture IMG and -o MODEL");
+  if (options.through_map && options.analytic)
+    throw UsageError("adapt: expected --through-map or --analytic, got both (--analytic looks textures up through exact maps)");
   const char* const extension = options.format.starts_with("unorm") ? ".png" : ".exr";
   if (!options.map.empty() && std::filesystem::path(options.map).extension() != extension)
     throw UsageError(fmt::format("adapt: --map {}: expected a name ending in {} for --format {}", options.map, extension, options.format));
+}
+
+// What is written: the model with its first texture, the others beside it, the map.
+struct Outputs {
+  std::vector<Image> textures;
+  Image map;
+};
+
+std::vector<std::filesystem::path> output_files(const Options& options, const std::vector<Image>& textures) {
+  std::vector<std::filesystem::path> files;
+  if (!options.output.empty()) {
+    files = io::mesh_output_files(options.output, {{.name = "adapted", .texture_path = {}, .texture = textures[0]}});
+    for (std::size_t n = 2; n <= textures.size(); ++n) files.push_back(later_texture_path(options.output, n));
+  }
+  if (!options.map.empty()) files.emplace_back(options.map);
+  return files;
+}
+
+Outputs make_outputs(const Options& options, FrameSize size, const std::vector<Image>& textures, LevelImages& level) {
+  Outputs outputs;
+  const ChannelType type = map_type_named(options.format);
+  if (!options.map.empty() || options.through_map) outputs.map = level.map(size.width, size.height, type, "map");
+  raster::CpuRenderer renderer;
+  for (const Image& texture : textures) {
+    if (options.through_map) {
+      outputs.textures.push_back(adapt::resolve_texture(renderer, texture, outputs.map, level.filter));
+    } else if (options.analytic) {
+      const Image exact = level.map(texture.width(), texture.height(), ChannelType::float32, "texture");
+      outputs.textures.push_back(adapt::resolve_texture(renderer, texture, exact, Filter::nearest));
+    } else {
+      outputs.textures.push_back(level.adapted(texture, "texture"));
+    }
+  }
+  return outputs;
+}
+
+void write_outputs(const Options& options, const progressive::ProgressiveMesh& mesh, const Outputs& outputs) {
+  const FinishWriting writing;
+  if (!options.map.empty()) write_map(options.map, outputs.map);
+  for (std::size_t n = 2; n <= outputs.textures.size(); ++n)
+    io::write_image(later_texture_path(options.output, n), outputs.textures[n - 1]);
+  if (options.output.empty()) return;
+  Mesh level = mesh.mesh();
+  level.face_materials.clear();
+  io::write_mesh(options.output, level, {{.name = "adapted", .texture_path = {}, .texture = outputs.textures[0]}});
+}
+
+progressive::EpmContent read_whole(const std::string& path) {
+  const io::FileBytes file = io::read_file(path);
+  progressive::EpmContent content = naming_the_model(path, [&] { return progressive::decode_epm(file.bytes()); });
+  if (!content.complete)
+    throw InputError(fmt::format("{}: expected a whole progressive mesh, got {} of {} splits: a texture belongs to the finest level", path,
+                                 grouped(content.mesh.split_count()), grouped(content.splits_in_whole)));
+  return content;
 }
 
 int run(const Options& options) {
   apply(options.common);
   require_options(options);
   const FrameSize size = parse_size(options.size);
-  const ChannelType format = format_named(options.format);
   for (const std::string& file : {options.output, options.map, options.common.json}) require_writable_file(file);
   Console console(console_options(options.common));
   CallFiles files;
   files.add_input(options.input, "the input");
-  if (!options.texture.empty()) files.add_input(options.texture, "--texture");
-  std::vector<io::Material> materials;
-  if (!options.texture.empty()) materials.push_back({.name = "adapted", .texture_path = {}, .texture = io::read_image(options.texture)});
-  std::vector<std::filesystem::path> written;
-  if (!options.output.empty()) written = io::mesh_output_files(options.output, materials);
-  for (const std::filesystem::path& path : written) files.add_output(path.string(), "-o");
-  files.add_output(options.map, "--map");
-  if (!options.map.empty()) written.emplace_back(options.map);
+  std::vector<Image> textures;
+  int largest_side = options.map.empty() && !options.through_map ? 1 : std::max(size.width, size.height);
+  for (const std::string& path : options.textures) {
+    files.add_input(path, "--texture");
+    textures.push_back(io::read_image(path));
+    require_texture(textures.back(), path);
+    largest_side = std::max({largest_side, textures.back().width(), textures.back().height()});
+  }
+  const std::vector<std::filesystem::path> written = output_files(options, textures);
+  for (const std::filesystem::path& path : written) files.add_output(path.string(), path == options.map ? "--map" : "-o");
   files.add_output(options.common.json, "--json");
 
-  const io::FileBytes file = io::read_file(options.input);
-  progressive::EpmContent content = naming_the_model(options.input, [&] { return progressive::decode_epm(file.bytes()); });
-  if (!content.complete)
-    throw InputError(fmt::format("{}: expected a whole progressive mesh, got {} of {} splits: a texture belongs to the finest level",
-                                 options.input, grouped(content.mesh.split_count()), grouped(content.splits_in_whole)));
-  adapt::AdaptSequence sequence = naming_the_model(options.input, [&] {
+  progressive::EpmContent content = read_whole(options.input);
+  progressive::ProgressiveMesh& mesh = content.mesh;
+  const adapt::AdaptSequence sequence = naming_the_model(options.input, [&] {
     const auto progress = [&](std::size_t done, std::size_t total) {
       console.progress("cells", static_cast<int>(done), static_cast<int>(total));
     };
     if (auto stored = adapt::decode_cells(content, progress)) return std::move(*stored);
-    adapt::AdaptSequence made(content.mesh, progress);
+    adapt::AdaptSequence made(mesh, progress);
     console.line(fmt::format("note: {} has no cells: made now, the same that `etalon progressive` stores", options.input));
     return made;
   });
-  content.mesh.go_to_faces(static_cast<std::size_t>(options.faces));
-  const std::size_t level = content.mesh.level();
-  const Work work{std::move(content.mesh), std::move(sequence), level, options.filter == "nearest" ? Filter::nearest : Filter::linear};
+  const TextureSpace space = examine_texture_space(mesh, sequence, largest_side, options.input);
+  const adapt::ChartBorders borders(mesh);
+  mesh.go_to_faces(static_cast<std::size_t>(options.faces));
+  LevelImages level{.sequence = sequence,
+                    .borders = borders,
+                    .level = mesh.level(),
+                    .filter = options.filter == "nearest" ? Filter::nearest : Filter::linear,
+                    .analytic = options.analytic,
+                    .console = console};
+  const Outputs outputs = make_outputs(options, size, textures, level);
+  const std::size_t unnamed = outputs.map.empty() ? 0 : adapt::unnamed_texels(size.width, size.height, outputs.map.format().type);
 
   std::vector<validation::VerifyInput> inputs = {file_input(options.input, "progressive mesh")};
-  if (!options.texture.empty()) inputs.push_back(file_input(options.texture, "texture"));
+  for (const std::string& path : options.textures) inputs.push_back(file_input(path, "texture"));
   Json document = validation::document_head("adapt", inputs);
-  adapt::AdaptCounts counts;  // of the texture where both are adapted
-  Image map;
-  if (!options.map.empty()) map = adapted(work, adapt::identity_map(size.width, size.height, format), "map", console, counts);
-  if (!options.output.empty()) materials[0].texture = adapted(work, materials[0].texture, "texture", console, counts);
-  document["faces"] = work.mesh.face_count();
-  document["adaptations"] = counts.adaptations;
-  document["packs"] = counts.packs;
-  const std::size_t unnamed = map.empty() ? 0 : adapt::unnamed_texels(size.width, size.height, format);
+  document["faces"] = mesh.face_count();
+  document["adaptations"] = level.adaptations;
+  document["packs"] = level.packs;
+  document["way"] = options.analytic ? "analytic" : options.through_map ? "through map" : "direct";
   document["format"] = options.format;
   document["filter"] = options.filter;
   document["unnamed_texels"] = unnamed;
-  document["map_error_texels"] = map.empty() ? Json() : map_errors(work, map);
-  {
-    const FinishWriting writing;
-    if (!map.empty()) write_map(options.map, map);
-    if (!options.output.empty()) {
-      Mesh mesh = work.mesh.mesh();
-      mesh.face_materials.clear();
-      io::write_mesh(options.output, mesh, materials);
-    }
-  }
-  console.line(fmt::format("level {} of {}: {} faces; {} adaptations in {} packs", grouped(level), grouped(work.mesh.split_count()),
-                           grouped(work.mesh.face_count()), grouped(counts.adaptations), grouped(counts.packs)));
-  const bool reached = work.mesh.face_count() <= static_cast<std::size_t>(options.faces);
+  document["map_error_texels"] = outputs.map.empty() ? Json() : map_errors(level, outputs.map);
+  document["images"] = level.images;
+  add_texture_space(document, space);
+  write_outputs(options, mesh, outputs);
+
+  print_texture_space(console, space);
+  console.line(fmt::format("level {} of {}: {} faces; {}", grouped(mesh.level()), grouped(mesh.split_count()), grouped(mesh.face_count()),
+                           options.analytic ? "exact, without resampling between"
+                                            : fmt::format("{} adaptations in {} packs", grouped(level.adaptations), grouped(level.packs))));
+  const bool reached = mesh.face_count() <= static_cast<std::size_t>(options.faces);
   if (!reached)
     console.line(fmt::format("the base has more than the {} faces asked for", grouped(static_cast<std::uint64_t>(options.faces))));
   if (unnamed > 0)
     print_warning(
         fmt::format("--format {} cannot name {} of the {} texels of {}x{}: detail is lost before anything is adapted; float32 and "
                     "unorm16 name all up to 8192",
-                    options.format, grouped(unnamed), grouped(map.texel_count()), size.width, size.height));
+                    options.format, grouped(unnamed), grouped(outputs.map.texel_count()), size.width, size.height));
   for (const std::filesystem::path& path : written) console.line("wrote " + path.string());
   validation::RunInfo info = validation::current_run(options.common.start);
   info.paths = {options.input};
-  if (!options.texture.empty()) info.paths.push_back(options.texture);
+  info.paths.insert(info.paths.end(), options.textures.begin(), options.textures.end());
   for (const std::filesystem::path& path : written) info.paths.push_back(path.string());
   document["run"] = validation::to_json(info);
   write_document(options.common, document);
-  return reached && unnamed == 0 ? kExitDone : kExitWarning;
+  return reached && unnamed == 0 && !space.overlaps() ? kExitDone : kExitWarning;
 }
 
 }  // namespace
@@ -194,10 +201,17 @@ Verb add_adapt(CLI::App& root) {
       ->required()
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 32));
-  app->add_option("--texture", options->texture, "Texture of the finest level, written adapted with -o")
+  app->add_option(
+         "--texture", options->textures,
+         "Texture of the finest level; may be given again: the model gets the first, later ones are written as MODEL_texture_2.png, …")
       ->type_name("IMG")
+      ->allow_extra_args(false)
       ->check(not_empty());
   app->add_option("-o,--output", options->output, "The level's model with the adapted texture (.obj .glb .ply)")->type_name("MODEL");
+  app->add_flag("--through-map", options->through_map,
+                "Look every texture up through one indexing map of --size and --format, instead of adapting each");
+  app->add_flag("--analytic", options->analytic,
+                "The exact limit: follow every texel through all cells, without resampling between; maps and textures at once");
   app->add_option("--map", options->map,
                   "The indexing map of the level: where on the finest level's texture each texel looks (.exr; .png for --format unorm…)")
       ->type_name("OUT.exr|.png");

@@ -12,12 +12,17 @@ double squared_length(const Vec2d& a) { return a.x * a.x + a.y * a.y; }
 }  // namespace
 
 std::optional<Vec2d> map_point(const RingCells& cells, AdaptDirection direction, const Vec2d& p) {
+  return map_point(cells.nodes, cells.cells, direction, p);
+}
+
+std::optional<Vec2d> map_point(std::span<const CellNode> nodes, std::span<const std::array<std::uint16_t, 3>> cells,
+                               AdaptDirection direction, const Vec2d& p) {
   const bool to_before = direction == AdaptDirection::to_before;
-  const auto from = [&](std::uint16_t n) { return Vec2d(to_before ? cells.nodes[n].after : cells.nodes[n].before); };
-  const auto to = [&](std::uint16_t n) { return Vec2d(to_before ? cells.nodes[n].before : cells.nodes[n].after); };
+  const auto from = [&](std::uint16_t n) { return Vec2d(to_before ? nodes[n].after : nodes[n].before); };
+  const auto to = [&](std::uint16_t n) { return Vec2d(to_before ? nodes[n].before : nodes[n].after); };
   double best = 0;  // least weight of the best cell so far, 0 once p is inside one
   std::optional<Vec2d> result;
-  for (const auto& cell : cells.cells) {
+  for (const auto& cell : cells) {
     const Vec2d a = from(cell[0]), ab = from(cell[1]) - a, ac = from(cell[2]) - a, ap = p - a;
     const double area = cross(ab, ac), v = cross(ap, ac) / area, w = cross(ab, ap) / area;
     const double least = std::min({1 - v - w, v, w});

@@ -1,7 +1,10 @@
 // The piecewise affine map between the textures before and after a collapse, without any resampling: the exact limit of adaptation.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
 
 #include "core/adapt/ring_cells.h"
 
@@ -16,5 +19,8 @@ enum class AdaptDirection : std::uint8_t {
 /// 2^-46 over the least doubled area of the cells (tests/adapt/cell_map_test.cpp). On an edge of cells both give the same point up to
 /// rounding; the lower cell is taken.
 [[nodiscard]] std::optional<Vec2d> map_point(const RingCells& cells, AdaptDirection direction, const Vec2d& p);
+/// The same of cells that are kept elsewhere: indices into `nodes`.
+[[nodiscard]] std::optional<Vec2d> map_point(std::span<const CellNode> nodes, std::span<const std::array<std::uint16_t, 3>> cells,
+                                             AdaptDirection direction, const Vec2d& p);
 
 }  // namespace etalon::adapt

@@ -1,15 +1,17 @@
 // The chain of cells between two levels, found by place: AdaptSequence::follow() for a whole map in seconds.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/adapt/adapt_sequence.h"
 
 namespace etalon::adapt {
 
-/// Texture space is cut into buckets, each with the ordered list of splits whose cells reach into it: a point meets only those. The sequence
-/// must outlive the index. Memory: 40 bytes for each side of a split and 4 for each bucket that it reaches into.
+/// Texture space is cut into buckets, each with the ordered list of splits whose cells reach into it: a point meets only those. Memory:
+/// the cells once more, 48 bytes for each side of a split, and 4 for each bucket that it reaches into.
 class ChainIndex {
  public:
   /// Of the splits between two levels of the sequence (ETALON_CHECK), in either direction.
@@ -22,14 +24,17 @@ class ChainIndex {
   // One side of a split: outside of this box map_point() finds nothing.
   struct Side {
     double x0, x1, y0, y1;
-    std::uint32_t step, chart;
+    std::uint32_t step, first_node;
+    std::size_t first_cell;
   };
+  [[nodiscard]] std::span<const CellNode> nodes_of(std::size_t side) const;
+  [[nodiscard]] std::span<const std::array<std::uint16_t, 3>> cells_of(std::size_t side) const;
   [[nodiscard]] std::size_t bucket_of(const Vec2d& p) const;
 
-  const AdaptSequence& sequence_;
-  std::size_t from_;
   AdaptDirection direction_;
-  std::vector<Side> sides_;                  // in the order of work
+  std::vector<CellNode> nodes_;
+  std::vector<std::array<std::uint16_t, 3>> cells_;
+  std::vector<Side> sides_;                  // in the order of work, and an end
   std::vector<std::uint32_t> bucket_begin_;  // into side_of_, one more than buckets
   std::vector<std::uint32_t> side_of_;
 };

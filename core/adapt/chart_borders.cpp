@@ -19,6 +19,7 @@ Mesh finest_mesh(ProgressiveMesh& mesh) {
   Mesh result;
   result.has_uv = true;
   result.positions = mesh.data().positions, result.wedges = mesh.data().wedges;
+  for (std::size_t w = 0; w < result.wedge_count(); ++w) result.wedges[w].uv = mesh.uv(w);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const auto& wedges = mesh.face_wedges(f);
     result.faces.push_back({WedgeId(wedges[0]), WedgeId(wedges[1]), WedgeId(wedges[2])});
@@ -64,6 +65,34 @@ Ends ends_of(std::span<const Spoke> fan) {
   return firsts == 1 && lasts == 1 ? ends : Ends{};
 }
 
+// The borders of charts as rings of wedges, with the chart on the left. A wedge at which two borders touch has the one that came first.
+class BorderRings {
+ public:
+  explicit BorderRings(const Mesh& mesh) : next_(mesh.wedge_count(), kNone), previous_(mesh.wedge_count(), kNone) {
+    using Edge = std::array<std::uint32_t, 2>;
+    std::vector<Edge> edges;
+    for (const auto& face : mesh.faces)
+      for (std::size_t k = 0; k < 3; ++k) edges.push_back({face[k].index, face[(k + 1) % 3].index});
+    std::sort(edges.begin(), edges.end());
+    for (const Edge& edge : edges)
+      if (!std::binary_search(edges.begin(), edges.end(), Edge{edge[1], edge[0]}) && next_[edge[0]] == kNone) link(edge[0], edge[1]);
+  }
+
+  void link(std::uint32_t from, std::uint32_t to) { next_[from] = to, previous_[to] = from; }
+  [[nodiscard]] std::uint32_t next(std::uint32_t wedge) const { return next_[wedge]; }
+  [[nodiscard]] std::uint32_t previous(std::uint32_t wedge) const { return previous_[wedge]; }
+
+ private:
+  std::vector<std::uint32_t> next_, previous_;
+};
+
+// What a collapse does to one border: the wedges of the chain that goes, and v's, whose place after it is what comes.
+struct Chain {
+  std::vector<std::uint32_t> wedges;
+  std::vector<Vec2f> uv;  // before the collapse
+  std::uint32_t of_parent = kNone, chart = 0;
+};
+
 }  // namespace
 
 ChartBorders::ChartBorders(ProgressiveMesh& mesh) : first_bend_(mesh.split_count() + 1, 0) {
@@ -76,19 +105,37 @@ ChartBorders::ChartBorders(ProgressiveMesh& mesh) : first_bend_(mesh.split_count
     faces_.push_back({{uv(0), uv(1), uv(2)}, charts.of_face[f]});
     for (const WedgeId wedge : finest.faces[f]) chart_of_wedge[wedge.index] = charts.of_face[f];
   }
-  const auto uv = [&](std::uint32_t wedge) { return finest.wedges[wedge].uv; };
+  BorderRings rings(finest);
+  const auto vertex = [&](std::uint32_t wedge) { return finest.wedges[wedge].vertex.index; };
   std::vector<Bend> backwards;  // from the last split to the first
-  for (std::size_t n = mesh.split_count(); n-- > 0; mesh.go_to(n)) {
+  std::vector<Chain> chains;
+  for (std::size_t n = mesh.split_count(); n-- > 0;) {
     const std::vector<Spoke> spokes = spokes_of(mesh, n);
+    chains.clear();
     for (std::size_t begin = 0, end = 0; begin < spokes.size(); begin = end) {
       while (end < spokes.size() && spokes[end].u == spokes[begin].u) ++end;
       const Ends ends = ends_of(std::span(spokes).subspan(begin, end - begin));
       if (ends.first == kNone) continue;
-      const std::uint32_t u = spokes[begin].u, chart = chart_of_wedge[u];
-      const int turn = orientation(uv(ends.last), uv(u), uv(ends.first));
-      if (turn == 0) continue;
-      backwards.push_back({{uv(ends.last), uv(u), uv(ends.first)}, chart, turn == charts.charts[chart].sign});
-      ++first_bend_[n];
+      const std::uint32_t u = spokes[begin].u, parent = mesh.data().splits[n].parent;
+      Chain chain{.wedges = {ends.last, u, ends.first}, .uv = {}, .of_parent = ends.last, .chart = chart_of_wedge[u]};
+      if (vertex(ends.first) == parent) chain.of_parent = ends.first;
+      if (mesh.data().splits[n].move != kNone) {  // v goes too
+        const std::uint32_t beyond = chain.of_parent == ends.first ? rings.next(ends.first) : rings.previous(ends.last);
+        if (beyond != kNone) chain.wedges.insert(chain.of_parent == ends.first ? chain.wedges.end() : chain.wedges.begin(), beyond);
+      }
+      for (const std::uint32_t wedge : chain.wedges) chain.uv.push_back(mesh.uv(wedge));
+      rings.link(ends.last, ends.first);
+      chains.push_back(std::move(chain));
+    }
+    mesh.go_to(n);
+    for (const Chain& chain : chains) {
+      const Vec2f p = mesh.uv(chain.of_parent);
+      for (std::size_t k = 0; k + 1 < chain.uv.size(); ++k) {
+        const int turn = orientation(p, chain.uv[k], chain.uv[k + 1]);
+        if (turn == 0) continue;
+        backwards.push_back({{p, chain.uv[k], chain.uv[k + 1]}, chain.chart, turn == charts.charts[chain.chart].sign});
+        ++first_bend_[n];
+      }
     }
   }
   std::reverse(backwards.begin(), backwards.end());

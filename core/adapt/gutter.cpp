@@ -194,10 +194,12 @@ GutterPlan Gutter::go_to(const AdaptSequence& sequence, std::size_t level) {
   GutterPlan plan;
   plan.first_split = low;
   std::vector<std::size_t> counts;  // in the order of work
+  std::vector<ChartCells> charts;
   for (std::size_t k = 0; k < high - low; ++k) {
     const std::size_t split = down ? high - 1 - k : low + k, before = plan.texels.size();
     bend(split, down);
-    for (const ChartCells& chart : sequence.split(split))
+    sequence.read(split, charts);
+    for (const ChartCells& chart : charts)
       if (!chart.cells.cells.empty()) plan_side(chart.cells, down ? AdaptDirection::to_before : AdaptDirection::to_after, plan);
     counts.push_back(plan.texels.size() - before);
   }
@@ -217,6 +219,12 @@ GutterPlan Gutter::go_to(const AdaptSequence& sequence, std::size_t level) {
   plan.first_texel.assign(1, 0);
   for (const std::size_t count : counts) plan.first_texel.push_back(plan.first_texel.back() + count);
   return plan;
+}
+
+void Gutter::follow_borders(std::size_t level) {
+  ETALON_CHECK(level <= borders_.split_count(), "gutter: no such level");
+  for (; level_ > level; --level_) bend(level_ - 1, true);
+  for (; level_ < level; ++level_) bend(level_, false);
 }
 
 Gutter::Size Gutter::size() const {

@@ -49,6 +49,9 @@ class Gutter {
   /// Goes to another level, split by split, and says what each does to the gutter. `sequence`: of the same mesh (ETALON_CHECK).
   [[nodiscard]] GutterPlan go_to(const AdaptSequence& sequence, std::size_t level);
 
+  /// Goes there without a plan: only where charts are.
+  void follow_borders(std::size_t level);
+
   [[nodiscard]] bool in_chart(int x, int y) const { return faces_[index(x, y)] > 0; }
 
   /// Of this level: texels in the gutter of some chart, and those of them near two.

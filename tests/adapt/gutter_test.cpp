@@ -12,6 +12,7 @@
 #include "core/base/error.h"
 #include "core/base/rng.h"
 #include "core/draw/scene.h"
+#include "core/mesh/weld.h"
 #include "raster/cpu_renderer.h"
 #include "tests/adapt/level_fixture.h"
 
@@ -33,8 +34,7 @@ Image triangle_ids(const DrawList& list, int width, int height) {
 }
 
 // The level's faces as the rasterizer draws them in texture space.
-Image drawn_level(std::size_t level, int width, int height) {
-  progressive::ProgressiveMesh& mesh = test::head().mesh;
+Image drawn_level(progressive::ProgressiveMesh& mesh, std::size_t level, int width, int height) {
   mesh.go_to(level);
   Frame frame{.width = width, .height = height, .guard = 64, .state = {}, .targets = {}};
   return triangle_ids(make_uv_scene(mesh.mesh(), {Material{}}, frame), width, height);
@@ -54,7 +54,7 @@ struct SlowPlan {
 };
 SlowPlan planned_by_drawing(std::size_t split, int size) {
   const AdaptSequence& sequence = test::head().sequence;
-  const Image level = drawn_level(split, size, size);
+  const Image level = drawn_level(test::head().mesh, split, size, size);
   SlowPlan plan;
   for (const ChartCells& chart : sequence.split(split)) {
     if (chart.cells.cells.empty()) continue;
@@ -157,14 +157,30 @@ TEST_CASE("gutter: the charts of every level are what the rasterizer draws of it
   const AdaptSequence& sequence = test::head().sequence;
   const std::size_t fine = sequence.size();
   Gutter gutter(head_borders(), 300, 200);
-  CHECK(differing(gutter, drawn_level(fine, 300, 200)) == 0);
-  const Image at_fine = drawn_level(fine, 300, 200), at_base = drawn_level(0, 300, 200);
+  CHECK(differing(gutter, drawn_level(test::head().mesh, fine, 300, 200)) == 0);
+  const Image at_fine = drawn_level(test::head().mesh, fine, 300, 200), at_base = drawn_level(test::head().mesh, 0, 300, 200);
   CHECK(differing(gutter, at_base) > 0);  // borders do move
   for (const std::size_t level : {fine - 500, fine / 2, std::size_t{17}, std::size_t{0}, fine / 3, fine}) {
     (void)gutter.go_to(sequence, level);
     CAPTURE(level);
     CHECK(gutter.level() == level);
-    CHECK(differing(gutter, drawn_level(level, 300, 200)) == 0);
+    CHECK(differing(gutter, drawn_level(test::head().mesh, level, 300, 200)) == 0);
+  }
+}
+
+TEST_CASE("gutter: the charts of every level of full-edge collapses, which move border vertices") {
+  simplify::SimplifyOptions options;
+  options.metric = simplify::MetricName::qem5;
+  options.collapse = simplify::CollapseKind::full;
+  options.target_faces = 499;
+  progressive::ProgressiveMesh mesh(progressive::make_progressive(welded_by_position(test::head().model.mesh), options).data);
+  const ChartBorders borders(mesh);
+  Gutter gutter(borders, 300, 200);
+  const std::size_t fine = mesh.split_count();
+  for (const std::size_t level : {fine, fine - 500, fine / 2, std::size_t{17}, std::size_t{0}, fine / 3, fine}) {
+    gutter.follow_borders(level);
+    CAPTURE(level);
+    CHECK(differing(gutter, drawn_level(mesh, level, 300, 200)) == 0);
   }
 }
 

@@ -1,7 +1,12 @@
 // etalon adapt: files, documents, exit codes.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "tests/cli/run_command.h"
 #include "tests/cli/schema_validator.h"
@@ -17,6 +22,46 @@ void make_swirl(const ScratchFolder& folder) {
       0);
   REQUIRE(run_etalon({"progressive", "swirl.obj", "--metric", "qem5", "--faces", "200", "-o", "swirl.epm"}, {.folder = folder.path()})
               .exit_code == 0);
+}
+
+// A wavy sheet of 2·n² triangles with texture coordinates (u, v) of (x, y) in [0, 1]².
+template <class Coordinate>
+std::string sheet_obj(int n, const Coordinate& coordinate) {
+  std::string text;
+  const auto add = [&](const std::string& line) { text += line + "\n"; };
+  for (int y = 0; y <= n; ++y)
+    for (int x = 0; x <= n; ++x) {
+      const double s = static_cast<double>(x) / n, t = static_cast<double>(y) / n;
+      const auto [u, v] = coordinate(s, t);
+      add(fmt::format("v {} {} {}", s, t, 0.3 * s * (1 - s) * t));
+      add(fmt::format("vt {} {}", u, v));
+    }
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const int a = y * (n + 1) + x + 1, b = a + 1, c = a + n + 1, d = c + 1;
+      add(fmt::format("f {0}/{0} {1}/{1} {2}/{2}", a, b, d));
+      add(fmt::format("f {0}/{0} {1}/{1} {2}/{2}", a, d, c));
+    }
+  return text;
+}
+
+// Its progressive mesh, sheet.epm: down to 60 faces, or to what its folds allow.
+template <class Coordinate>
+void make_sheet(const ScratchFolder& folder, const Coordinate& coordinate) {
+  folder.file("sheet.obj", sheet_obj(12, coordinate));
+  REQUIRE(run_etalon({"progressive", "sheet.obj", "--faces", "60", "-o", "sheet.epm"}, {.folder = folder.path()}).exit_code <= 1);
+}
+
+json run_adapt(const ScratchFolder& folder, std::vector<std::string> arguments, int exit_code) {
+  arguments.insert(arguments.begin(), "adapt");
+  arguments.insert(arguments.end(), {"--json", "-"});
+  const CommandResult result = run_etalon(arguments, {.folder = folder.path()});
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == exit_code);
+  json document = json::parse(result.out);
+  for (const std::string& violation : schema_violations(json::parse(read_text(std::string(ETALON_SCHEMAS) + "/adapt.json")), document))
+    FAIL_CHECK(violation);
+  return document;
 }
 
 }  // namespace
@@ -94,6 +139,74 @@ TEST_CASE("adapt: stored cells and cells made now give the same bytes; damaged o
   check_refused({"adapt", "damaged.epm", "--faces", "300", "--map", "b.exr"}, 4, folder, "checksum");
 }
 
+TEST_CASE("adapt: several textures: adapted, through one map, or exact; each of its own size") {
+  const ScratchFolder folder;
+  make_swirl(folder);
+  REQUIRE(
+      run_etalon({"make", "swirl", "--faces", "1800", "--texture-size", "64", "-o", "small.obj"}, {.folder = folder.path()}).exit_code ==
+      0);
+  const std::vector<std::string> common = {"swirl.epm", "--faces",          "300", "--texture", "swirl_texture.png",
+                                           "--texture", "small_texture.png"};
+  std::vector<std::string> first, second;
+  for (const auto& [way, name] :
+       {std::pair<std::string, std::string>{"", "direct"}, {"--through-map", "through map"}, {"--analytic", "analytic"}}) {
+    std::vector<std::string> arguments = common;
+    arguments.insert(arguments.end(), {"-o", "level.obj"});
+    if (!way.empty()) arguments.push_back(way);
+    const json document = run_adapt(folder, arguments, 0);
+    CHECK(document["way"] == name);
+    CHECK(document["inputs"].size() == 3);
+    CHECK(document["images"].size() == (way.empty() ? 2 : way == "--analytic" ? 0 : 1));
+    first.push_back(read_text(folder.path() / "level_texture.png")), second.push_back(read_text(folder.path() / "level_texture_2.png"));
+    const json info = json::parse(run_etalon({"info", "level_texture_2.png", "--json", "-"}, {.folder = folder.path()}).out);
+    CHECK(info.dump().find("64") != std::string::npos);
+  }
+  for (const std::vector<std::string>* textures : {&first, &second}) {
+    CHECK((*textures)[0] != (*textures)[1]);
+    CHECK((*textures)[0] != (*textures)[2]);
+    CHECK((*textures)[1] != (*textures)[2]);
+  }
+  const json exact = run_adapt(folder, {"swirl.epm", "--faces", "300", "--map", "exact.exr", "--size", "300", "--analytic"}, 0);
+  // float32: half of 2^-24 along either axis, of 300 texels.
+  CHECK(exact["map_error_texels"]["max"] <= 300 * 0x1p-25 * 1.5);
+  CHECK(exact["adaptations"] == 0);
+}
+
+TEST_CASE("adapt: texture coordinates outside of [0, 1], folded and overlapping ones are said; tiled ones refused") {
+  const ScratchFolder folder;
+  make_sheet(folder, [](double s, double t) { return std::pair{s, t}; });
+  const json plain = run_adapt(folder, {"sheet.epm", "--faces", "100", "--map", "map.exr", "--size", "64"}, 0);
+  CHECK(plain["coordinates"]["outside"] == 0);
+  CHECK(plain["coordinates"]["folds"] == 0);
+  CHECK(plain["coordinates"]["overlap_share"] == 0);
+  CHECK(plain["rings"]["made"] > 50);
+  make_sheet(folder, [](double s, double t) { return std::pair{1.04 * s - 0.02, t}; });
+  const json outside = run_adapt(folder, {"sheet.epm", "--faces", "100", "--map", "map.exr", "--size", "64"}, 0);
+  CHECK(outside["coordinates"]["outside"] > 0);
+  CHECK(outside["coordinates"]["outside_by"].get<double>() == doctest::Approx(0.02));
+  // Half of the sheet turned over, onto the other half.
+  make_sheet(folder, [](double s, double t) { return std::pair{s < 0.5 ? s : 0.9 - 0.8 * s, t}; });
+  const json folded = run_adapt(folder, {"sheet.epm", "--faces", "100", "--map", "map.exr", "--size", "64"}, 1);
+  CHECK(folded["coordinates"]["folds"] > 100);
+  CHECK(folded["coordinates"]["overlap_share"] > 0.5);
+  CHECK(folded["rings"]["fold"] > 0);
+  std::filesystem::remove(folder.path() / "map.exr");
+  make_sheet(folder, [](double s, double t) { return std::pair{3 * s, t}; });
+  check_refused({"adapt", "sheet.epm", "--faces", "100", "--map", "map.exr"}, 4, folder, "tiled");
+  make_sheet(folder, [](double s, double t) { return std::pair{1.4 * s, t}; });
+  check_refused({"adapt", "sheet.epm", "--faces", "100", "--map", "map.exr", "--size", "8192"}, 4, folder, "2,048 texels outside");
+}
+
+TEST_CASE("adapt: levels at both ends") {
+  const ScratchFolder folder;
+  make_sheet(folder, [](double s, double t) { return std::pair{s, t}; });
+  const json finest = run_adapt(folder, {"sheet.epm", "--faces", "1000000", "--map", "map.exr", "--size", "64"}, 0);
+  CHECK(finest["faces"] == 288);
+  CHECK(finest["adaptations"] == 0);
+  CHECK(finest["map_error_texels"]["max"] <= 64 * 0x1p-25 * 1.5);
+  CHECK(run_adapt(folder, {"sheet.epm", "--faces", "0", "--map", "map.exr", "--size", "64"}, 1)["faces"] == 60);
+}
+
 TEST_CASE("adapt: what is refused leaves nothing behind") {
   const ScratchFolder folder;
   make_swirl(folder);
@@ -104,6 +217,16 @@ TEST_CASE("adapt: what is refused leaves nothing behind") {
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--format", "double"}, 64, folder, "--format");
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--size", "0"}, 64, folder, "size");
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--size", "1000000"}, 64, folder, "1000000");
+  check_refused({"adapt", "swirl.epm", "--faces", "-1", "--map", "level.exr"}, 64, folder, "--faces");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--through-map"}, 64, folder, "--texture");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--texture", "swirl_texture.png", "-o", "l.obj", "--through-map", "--analytic"},
+                64, folder, "both");
+  REQUIRE(
+      run_etalon({"adapt", "swirl.epm", "--faces", "300", "--map", "colour.exr", "--size", "32"}, {.folder = folder.path()}).exit_code ==
+      0);
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--texture", "colour.exr", "-o", "l.obj"}, 4, folder, "8 or 16 bits");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--texture", "swirl_texture.png", "-o", "swirl.obj"}, 64, folder,
+                "swirl_texture.png");
   check_refused({"adapt", "swirl.obj", "--faces", "300", "--map", "level.exr"}, 4, folder, "swirl.obj");
   const std::string whole = read_text(folder.path() / "swirl.epm");
   folder.file("cut.epm", whole.substr(0, whole.size() * 3 / 4));
