@@ -12,6 +12,7 @@
 
 #include "cli/adapt_images.h"
 #include "cli/adapt_input.h"
+#include "cli/adapt_psnr.h"
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
@@ -34,10 +35,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 using validation::grouped;
 
+constexpr int kPsnrViewSize = 1024;
+
 struct Options {
   std::string input, output, map, size = "1024", format = "float32", filter = "linear";
   std::vector<std::string> textures;
-  bool through_map = false, analytic = false;
+  bool through_map = false, analytic = false, psnr = false;
   std::int64_t faces = 0;
   CommonOptions common;
 };
@@ -47,6 +50,7 @@ void require_options(const Options& options) {
   if (options.output.empty() != options.textures.empty()) throw UsageError("adapt: --texture IMG and -o MODEL go together");
   if (options.output == "-" || options.map == "-") throw UsageError("adapt: expected files, got '-'");
   if (options.through_map && options.textures.empty()) throw UsageError("adapt: --through-map: expected --texture IMG and -o MODEL");
+  if (options.psnr && options.textures.empty()) throw UsageError("adapt: --psnr: expected --texture IMG and -o MODEL");
   if (options.through_map && options.analytic)
     throw UsageError("adapt: expected --through-map or --analytic, got both (--analytic looks textures up through exact maps)");
   const char* const extension = options.format.starts_with("unorm") ? ".png" : ".exr";
@@ -163,6 +167,13 @@ int run(const Options& options) {
   document["unnamed_texels"] = unnamed;
   document["map_error_texels"] = outputs.map.empty() ? Json() : map_errors(level, outputs.map);
   document["images"] = level.images;
+  document["psnr_db"] = Json();
+  if (options.psnr) {
+    const Mesh coarse = mesh.mesh();
+    mesh.go_to(mesh.split_count());
+    document["psnr_db"] = level_psnr(mesh.mesh(), coarse, textures[0], outputs.textures[0], kPsnrViewSize, console);
+    mesh.go_to(level.level);
+  }
   add_texture_space(document, space);
   write_outputs(options, mesh, outputs);
 
@@ -171,6 +182,7 @@ int run(const Options& options) {
                            options.analytic ? "exact, without resampling between"
                                             : fmt::format("{} adaptations in {} packs", grouped(level.adaptations), grouped(level.packs))));
   const bool reached = mesh.face_count() <= static_cast<std::size_t>(options.faces);
+  if (options.psnr) console.line(psnr_line(document["psnr_db"]));
   if (!reached)
     console.line(fmt::format("the base has more than the {} faces asked for", grouped(static_cast<std::uint64_t>(options.faces))));
   if (unnamed > 0)
@@ -222,6 +234,8 @@ Verb add_adapt(CLI::App& root) {
   app->add_option("--filter", options->filter, "Of each adaptation's lookup: linear (default) or nearest")
       ->type_name("KIND")
       ->check(CLI::IsMember({"linear", "nearest"}));
+  app->add_flag("--psnr", options->psnr,
+                "Draw the 24 views of the full model and of the level, with the adapted first texture and without");
   add_common_options(*app, options->common,
                      "  etalon adapt head.epm --faces 500 --texture head_texture.png -o head500.obj\n  (after: etalon make head -o "
                      "head.obj; etalon progressive head.obj --metric qem5 -o head.epm)");

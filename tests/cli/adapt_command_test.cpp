@@ -197,6 +197,20 @@ TEST_CASE("adapt: texture coordinates outside of [0, 1], folded and overlapping 
   check_refused({"adapt", "sheet.epm", "--faces", "100", "--map", "map.exr", "--size", "8192"}, 4, folder, "2,048 texels outside");
 }
 
+TEST_CASE("adapt: --psnr says that the adapted texture shows the model better; at the finest level nothing differs") {
+  const ScratchFolder folder;
+  make_swirl(folder);
+  const std::vector<std::string> common = {"swirl.epm", "--texture", "swirl_texture.png", "-o", "level.obj", "--psnr", "--faces"};
+  std::vector<std::string> coarse = common, finest = common;
+  coarse.emplace_back("300"), finest.emplace_back("100000");
+  const json document = run_adapt(folder, coarse, 0);
+  CHECK(document["psnr_db"]["adapted"].get<double>() > document["psnr_db"]["unadapted"].get<double>() + 1);
+  CHECK(document["psnr_db"]["views"] == 24);
+  const json same = run_adapt(folder, finest, 0);
+  CHECK(same["psnr_db"]["adapted"].is_null());
+  CHECK(same["psnr_db"]["unadapted"].is_null());
+}
+
 TEST_CASE("adapt: levels at both ends") {
   const ScratchFolder folder;
   make_sheet(folder, [](double s, double t) { return std::pair{s, t}; });
@@ -218,6 +232,7 @@ TEST_CASE("adapt: what is refused leaves nothing behind") {
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--size", "0"}, 64, folder, "size");
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--size", "1000000"}, 64, folder, "1000000");
   check_refused({"adapt", "swirl.epm", "--faces", "-1", "--map", "level.exr"}, 64, folder, "--faces");
+  check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--psnr"}, 64, folder, "--psnr");
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--map", "level.exr", "--through-map"}, 64, folder, "--texture");
   check_refused({"adapt", "swirl.epm", "--faces", "300", "--texture", "swirl_texture.png", "-o", "l.obj", "--through-map", "--analytic"},
                 64, folder, "both");
