@@ -64,8 +64,10 @@ AdaptSequence::AdaptSequence(progressive::ProgressiveMesh& mesh, const std::func
   if (!mesh.data().has_uv) throw InputError("texture adaptation: expected a mesh with texture coordinates, got one without");
   constexpr std::size_t kBetweenReports = 1000;
   mesh.go_to(mesh.split_count());
+  VertexFaces faces(mesh);
   for (std::size_t n = mesh.split_count(); n-- > 0; mesh.go_to(n)) {
-    cells_.put(n, cells_of_split(mesh, n));
+    cells_.put(n, cells_of_split(mesh, n, &faces));
+    faces.coarsen(mesh, n);
     if (progress && n % kBetweenReports == 0) progress(mesh.split_count() - n, mesh.split_count());
   }
   cells_.shrink();

@@ -19,13 +19,14 @@ using progressive::kEpmBlockSplits;
 
 constexpr std::string_view kTag = "CELL";
 
-// One byte: the ring's status; with cells a second one: the shares' places in their lists.
-constexpr int kCrossingShift = 3;
+// One byte: the ring's status; with cells a second one: the shares' places in their lists, and the overlay's plane.
+constexpr int kCrossingShift = 3, kPlaneShift = 6;
 
 void put_number(ByteWriter& out, const Vec2f& p) { out.f32(p.x), out.f32(p.y); }
 
 std::uint8_t shares_of(const RingCells& cells) {
-  return static_cast<std::uint8_t>(index_of_place_share(cells.u_kept) | index_of_crossing_share(cells.crossings_kept) << kCrossingShift);
+  return static_cast<std::uint8_t>(index_of_place_share(cells.u_kept) | index_of_crossing_share(cells.crossings_kept) << kCrossingShift |
+                                   static_cast<int>(cells.plane) << kPlaneShift);
 }
 
 // Every bit of a split's cells, for the checksum.
@@ -50,15 +51,14 @@ void put_chosen(ByteWriter& out, const std::vector<ChartCells>& charts) {
     out.u8(static_cast<std::uint8_t>(chart.status));
     if (chart.status != CellStatus::made) continue;
     out.u8(shares_of(chart.cells));
-    put_number(out, chart.cells.nodes[0].after);
+    if (chart.cells.plane == OverlayPlane::texture_after) put_number(out, chart.cells.nodes[0].after);
   }
 }
 
 // What a block's chunk says of one ring.
 struct Chosen {
   CellStatus status = CellStatus::made;
-  double place_share = 1, crossing_share = 1;
-  Vec2f place{0, 0};
+  CellChoice choice;
 };
 
 Chosen chosen_from(ByteReader& in) {
@@ -68,13 +68,15 @@ Chosen chosen_from(ByteReader& in) {
   chosen.status = static_cast<CellStatus>(status);
   if (chosen.status != CellStatus::made) return chosen;
   const std::uint8_t shares = in.u8();
-  const std::size_t place = shares & 7u, crossing = shares >> kCrossingShift;
-  if (place >= kPlaceShares.size() || crossing >= kCrossingShares.size())
-    throw InputError(
-        fmt::format("shares: expected below {} and {}, got {} and {}", kPlaceShares.size(), kCrossingShares.size(), place, crossing));
-  chosen.place_share = kPlaceShares[place], chosen.crossing_share = kCrossingShares[crossing];
-  chosen.place.x = in.f32(), chosen.place.y = in.f32();
-  if (!std::isfinite(chosen.place.x) || !std::isfinite(chosen.place.y)) throw InputError("place of u: expected finite numbers");
+  const std::size_t place = shares & 7u, crossing = shares >> kCrossingShift & 7u, plane = shares >> kPlaneShift;
+  if (place >= kPlaceShares.size() || crossing >= kCrossingShares.size() || plane >= kOverlayPlaneCount)
+    throw InputError(fmt::format("shares: expected below {} and {}, plane below {}, got {}, {}, {}", kPlaceShares.size(),
+                                 kCrossingShares.size(), kOverlayPlaneCount, place, crossing, plane));
+  CellChoice& choice = chosen.choice;
+  choice = {static_cast<OverlayPlane>(plane), kPlaceShares[place], kCrossingShares[crossing], {0, 0}};
+  if (choice.plane != OverlayPlane::texture_after) return chosen;
+  choice.place.x = in.f32(), choice.place.y = in.f32();
+  if (!std::isfinite(choice.place.x) || !std::isfinite(choice.place.y)) throw InputError("place of u: expected finite numbers");
   return chosen;
 }
 
@@ -86,9 +88,10 @@ ChartCells cells_chosen(const ChartRing& ring, const Chosen& chosen) {
   if (ring.status == CellStatus::made && chosen.status != CellStatus::made && chosen.status != CellStatus::no_place)
     refuse("made or no_place", chosen.status);
   if (chosen.status != CellStatus::made) return {chosen.status, {}};
-  ChartCells cells = chart_cells_at(ring, chosen.place, chosen.place_share, chosen.crossing_share);
+  ChartCells cells = chart_cells_at(ring, chosen.choice);
   if (cells.status != CellStatus::made)
-    throw InputError(fmt::format("place of u: expected one that leaves all cells positive, got {} {}", chosen.place.x, chosen.place.y));
+    throw InputError(
+        fmt::format("place of u: expected one that leaves all cells positive, got {} {}", chosen.choice.place.x, chosen.choice.place.y));
   return cells;
 }
 
@@ -106,7 +109,8 @@ std::vector<const EpmExtra*> by_block(const std::vector<EpmExtra>& extras, std::
 }
 
 // Cells of one block, each at its level; downward, as they were made.
-void decode_block(progressive::ProgressiveMesh& mesh, std::size_t first, std::size_t end, const EpmExtra& chunk, CellStore& store) {
+void decode_block(progressive::ProgressiveMesh& mesh, std::size_t first, std::size_t end, const EpmExtra& chunk, VertexFaces& faces,
+                  CellStore& store) {
   ByteReader in(std::as_bytes(std::span(chunk.payload)), 0);
   if (const std::uint8_t rules = in.u8(); rules != kCellRules)
     throw InputError(fmt::format("rules: expected {}, got {}: make the file again", kCellRules, rules));
@@ -120,7 +124,7 @@ void decode_block(progressive::ProgressiveMesh& mesh, std::size_t first, std::si
   std::uint32_t got = 0;
   for (std::size_t n = end; n-- > first;) {
     mesh.go_to(n + 1);
-    const std::vector<ChartRing> rings = rings_of_split(mesh, n);
+    const std::vector<ChartRing> rings = rings_of_split(mesh, n, &faces);
     const std::vector<Chosen>& said = chosen[n - first];
     if (rings.size() != said.size()) throw InputError(fmt::format("split {}: rings: expected {}, got {}", n, rings.size(), said.size()));
     std::vector<ChartCells> charts;
@@ -129,6 +133,7 @@ void decode_block(progressive::ProgressiveMesh& mesh, std::size_t first, std::si
     put_all(all, charts);
     got = checksum_of(all, got);
     store.put(n, charts);
+    faces.coarsen(mesh, n);
   }
   if (got != expected) throw InputError(fmt::format("checksum of the cells: expected {:08x}, got {:08x}", expected, got));
 }
@@ -169,14 +174,18 @@ std::optional<AdaptSequence> decode_cells(progressive::EpmContent& content, cons
   const std::vector<const EpmExtra*> chunks = by_block(extras, splits);
   CellStore store(splits);
   mesh.go_to(splits);
+  VertexFaces faces(mesh);
   constexpr std::size_t kBlocksBetweenReports = 16;
   for (std::size_t block = chunks.size(); block-- > 0;) {
     const std::size_t first = block * kEpmBlockSplits, end = std::min(first + kEpmBlockSplits, splits);
     const auto refuse = [&](const char* what) { throw InputError(fmt::format("CELL of splits {} to {}: {}", first, end, what)); };
-    if (chunks[block] == nullptr && !content.complete && block + 1 == chunks.size()) continue;
+    if (chunks[block] == nullptr && !content.complete && block + 1 == chunks.size()) {
+      for (std::size_t n = end; n-- > first;) faces.coarsen(mesh, n);
+      continue;
+    }
     if (chunks[block] == nullptr) refuse("expected a chunk for each block of splits, got none here");
     try {
-      decode_block(mesh, first, end, *chunks[block], store);
+      decode_block(mesh, first, end, *chunks[block], faces, store);
     } catch (const InputError& error) {
       refuse(error.what());
     }

@@ -64,6 +64,7 @@ void put_chart(const ChartCells& chart, Writer& out) {
   const auto first = std::find_if(cells.nodes.begin(), cells.nodes.end(), stays);
   const auto end = std::find_if_not(first, cells.nodes.end(), stays);
   const auto place = [&](auto at) { return static_cast<std::uint16_t>(at - cells.nodes.begin()); };
+  out.put(static_cast<std::uint8_t>(cells.plane));
   out.put(index_of_place_share(cells.u_kept)), out.put(index_of_crossing_share(cells.crossings_kept));
   out.put(static_cast<std::uint16_t>(count)), out.put(place(first)), out.put(place(end));
   out.put(static_cast<std::uint32_t>(cells.cells.size()));
@@ -83,8 +84,9 @@ void put_chart(const ChartCells& chart, Writer& out) {
 void get_chart(Reader& in, ChartCells& chart) {
   chart.status = static_cast<CellStatus>(in.get<std::uint8_t>());
   chart.cells.nodes.clear(), chart.cells.cells.clear();
-  chart.cells.u_kept = chart.cells.crossings_kept = 1;
+  chart.cells.u_kept = chart.cells.crossings_kept = 1, chart.cells.plane = OverlayPlane::texture_after;
   if (chart.status != CellStatus::made) return;
+  chart.cells.plane = static_cast<OverlayPlane>(in.get<std::uint8_t>());
   chart.cells.u_kept = kPlaceShares[in.get<std::uint8_t>()], chart.cells.crossings_kept = kCrossingShares[in.get<std::uint8_t>()];
   const auto count = in.get<std::uint16_t>(), first = in.get<std::uint16_t>(), end = in.get<std::uint16_t>();
   const auto cells = in.get<std::uint32_t>();

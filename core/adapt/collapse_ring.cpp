@@ -7,8 +7,9 @@ namespace etalon::adapt {
 
 bool is_unfolded(const CollapseRing& ring) {
   const std::size_t n = ring.size();
+  const auto before = [&](std::size_t k) -> const Vec2f& { return k == 0 ? ring.target_before() : ring.uv[k]; };
   for (std::size_t k = 0; k < ring.triangles_before(); ++k)
-    if (orientation(ring.uv_of_u, ring.uv[k], ring.uv[(k + 1) % n]) <= 0) return false;
+    if (orientation(ring.uv_of_u, before(k), before((k + 1) % n)) <= 0) return false;
   for (std::size_t k = 1; k + 1 < n; ++k)
     if (orientation(ring.uv[0], ring.uv[k], ring.uv[k + 1]) <= 0) return false;
   return true;

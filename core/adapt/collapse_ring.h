@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/math/vec.h"
@@ -17,7 +18,11 @@ struct CollapseRing {
   std::vector<Vec2f> uv;         ///< #R
   /// u lies on a curve (border or seam), which leads from v over u to the last corner: there is no triangle (u, last, 0).
   bool on_curve = false;
+  /// Where v is before the collapse in the texture, if elsewhere: of a full-edge collapse on a curve, which is one of each end into a point
+  /// between them (split_cells.h).
+  std::optional<Vec2f> uv_of_v_before;
 
+  [[nodiscard]] const Vec2f& target_before() const { return uv_of_v_before ? *uv_of_v_before : uv[0]; }
   [[nodiscard]] std::size_t size() const { return uv.size(); }
   /// Triangles (u, k, k + 1) before the collapse.
   [[nodiscard]] std::size_t triangles_before() const { return on_curve ? size() - 1 : size(); }

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/adapt/crossing_parameters.h"
 #include "core/base/error.h"
-#include "core/math/nearest_point.h"
 #include "core/mesh/exact_orientation.h"
 
 namespace etalon::adapt {
@@ -14,14 +13,7 @@ namespace {
 
 constexpr std::size_t kMostCorners = 16'000, kMostNodes = 65'535;
 
-double cross(const Vec2d& a, const Vec2d& b) { return a.x * b.y - a.y * b.x; }
-
-// Where the spoke u–k crosses the diagonal v–j: parameters from u and from v.
-struct CrossingParameters {
-  double spoke, diagonal;
-};
-
-// A crossing: of the overlay (in the texture plane, from u's new place), and of the nearest points in space.
+// A crossing of the spoke u–k and the diagonal v–j: of the overlay (in the texture plane, from u's new place), and of the nearest points in space.
 struct Crossing {
   std::size_t k, j;
   CrossingParameters overlay, nearest;
@@ -101,22 +93,13 @@ class Overlay {
   }
 
   [[nodiscard]] CrossingParameters in_texture(std::size_t k, std::size_t j) const {
-    const Vec2d u(place_), v(ring_.uv[0]), spoke = Vec2d(ring_.uv[k]) - u, diagonal = Vec2d(ring_.uv[j]) - v;
-    const double area = cross(spoke, diagonal);
-    if (area == 0) return {0.5, 0.5};
-    return {std::clamp(cross(v - u, diagonal) / area, 0.0, 1.0), std::clamp(cross(v - u, spoke) / area, 0.0, 1.0)};
+    return crossing_in_plane(Vec2d(place_), Vec2d(ring_.uv[k]), Vec2d(ring_.uv[0]), Vec2d(ring_.uv[j]));
   }
 
-  // The paper's 2 × 2 system: the nearest points of the edge u–k before and the edge v–j after. Those of the texture plane where the edges
-  // are parallel or the nearest points lie at their ends or beyond.
+  // The nearest points of the edge u–k before and the edge v–j after. Those of the texture plane where there are none between the ends.
   [[nodiscard]] CrossingParameters in_space(std::size_t k, std::size_t j) const {
-    const Vec3d u = difference_of(ring_.position_of_u, ring_.positions[k]), v = difference_of(ring_.positions[0], ring_.positions[j]);
-    const Vec3d uv = difference_of(ring_.position_of_u, ring_.positions[0]);
-    const double uu = dot_product(u, u), vv = dot_product(v, v), u_v = dot_product(u, v);
-    const double right_u = dot_product(uv, u), right_v = dot_product(uv, v), determinant = u_v * u_v - uu * vv;
-    if (!(std::abs(determinant) > 0x1p-40 * uu * vv)) return in_texture(k, j);
-    const double a = (u_v * right_v - vv * right_u) / determinant, b = (uu * right_v - u_v * right_u) / determinant;
-    return a > 0 && a < 1 && b > 0 && b < 1 ? CrossingParameters{a, b} : in_texture(k, j);
+    const auto nearest = nearest_in_space(ring_.position_of_u, ring_.positions[k], ring_.positions[0], ring_.positions[j]);
+    return nearest ? *nearest : in_texture(k, j);
   }
 
   const CollapseRing& ring_;
@@ -130,10 +113,11 @@ class Overlay {
 std::vector<CellNode> place_nodes(const CollapseRing& ring, const Vec2f& place, const std::vector<Crossing>& crossings, double share) {
   std::vector<CellNode> nodes = {{ring.uv_of_u, place}};
   for (const Vec2f& uv : ring.uv) nodes.push_back({uv, uv});
+  nodes[1].before = ring.target_before();
   const auto along = [](const Vec2f& from, const Vec2f& to, double t) { return Vec2f(Vec2d(from) + t * (Vec2d(to) - Vec2d(from))); };
   for (const Crossing& c : crossings) {
-    const double spoke = c.overlay.spoke + share * (c.nearest.spoke - c.overlay.spoke);
-    const double diagonal = c.overlay.diagonal + share * (c.nearest.diagonal - c.overlay.diagonal);
+    const double spoke = c.overlay.first + share * (c.nearest.first - c.overlay.first);
+    const double diagonal = c.overlay.second + share * (c.nearest.second - c.overlay.second);
     nodes.push_back({along(ring.uv_of_u, ring.uv[c.k], spoke), along(ring.uv[0], ring.uv[c.j], diagonal)});
   }
   return nodes;

@@ -21,6 +21,14 @@ struct CellNode {
   friend bool operator==(const CellNode&, const CellNode&) = default;
 };
 
+/// In which plane the edges before and after were laid over each other.
+enum class OverlayPlane : std::uint8_t {
+  texture_after,       ///< of a half-edge collapse: u at its new place
+  edge_texture_after,  ///< of a full-edge collapse (edge_cells.h), likewise
+  edge_space,          ///< of a full-edge collapse: a plane in space
+};
+inline constexpr std::size_t kOverlayPlaneCount = 3;
+
 /// The cells cover the triangles before the collapse by their `before` corners and the triangles after it by their `after` corners; in each
 /// the map between both is affine, and together they are continuous.
 struct RingCells {
@@ -29,6 +37,7 @@ struct RingCells {
   /// How much of the paper's places is kept: of u's way to its nearest point, and of the crossings' way from the overlay's own places to
   /// those of the nearest points in space. 1: all.
   double u_kept = 1, crossings_kept = 1;
+  OverlayPlane plane = OverlayPlane::texture_after;
   friend bool operator==(const RingCells&, const RingCells&) = default;
 };
 

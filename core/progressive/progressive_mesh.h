@@ -78,6 +78,9 @@ class ProgressiveMesh {
   [[nodiscard]] const Vec4f& color(std::size_t v) const { return moving_ ? colors_[v] : data_.colors[v]; }
   [[nodiscard]] const Vec2f& uv(std::size_t w) const { return moving_ ? uvs_[w] : data_.wedges[w].uv; }
 
+  /// What a split that moves its parent finds at level `split`: place, colour and wedges of the merged vertex.
+  [[nodiscard]] const ParentMove& merged_parent(std::size_t split) const { return coarse_[data_.splits[split].move]; }
+
   void go_to(std::size_t level);
   /// The finest level of at most `faces` faces; the base where there is none.
   void go_to_faces(std::size_t faces);

@@ -11,7 +11,7 @@ struct ModelLevels {
   procedural::Model model;
   progressive::ProgressiveMesh mesh;
   adapt::AdaptSequence sequence;
-  ModelLevels(procedural::Model input, std::size_t base_faces);
+  ModelLevels(procedural::Model input, std::size_t base_faces, simplify::CollapseKind collapse = simplify::CollapseKind::half);
 };
 
 /// The paper's swirl (Figure 15): 7,688 faces down to 399; the texture is 512².

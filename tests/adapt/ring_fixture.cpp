@@ -27,7 +27,33 @@ bool unfolded(const Vec2f& u, const std::vector<Vec2f>& around, bool on_curve) {
   return adapt::is_unfolded(ring);
 }
 
+// Three points near the middle in a random ring that fit an edge and its merged vertex.
+void random_edge(Rng& rng, int corners, adapt::EdgeRing& ring) {
+  ring.last_of_u = 1 + rng.below(static_cast<std::uint64_t>(corners) - 1);
+  const auto near_middle = [&](double turn) {
+    const double radius = 0.12 * rng.unit();
+    return Vec2f(Vec2d(0.5 + radius * procedural::cos_turns(turn), 0.5 + radius * procedural::sin_turns(turn)));
+  };
+  do {
+    random_star(rng, corners, false, ring.uv_of_w, ring.uv);
+    ring.uv_of_u = near_middle(rng.unit()), ring.uv_of_v = near_middle(rng.unit());
+  } while (!adapt::is_unfolded(ring));
+}
+
 }  // namespace
+
+adapt::EdgeRing random_edge_ring(Rng& rng, int corners, bool planar) {
+  adapt::EdgeRing ring, plane;
+  random_edge(rng, corners, ring);
+  do random_edge(rng, corners, plane);
+  while (plane.last_of_u != ring.last_of_u);
+  const auto lift = [&](const Vec2f& p) {
+    return planar ? Vec3f{p.x, p.y, 0.25f * p.x + 0.5f * p.y} : Vec3f{p.x, p.y, 0.3f * rng.uniform(-1, 1)};
+  };
+  ring.position_of_u = lift(plane.uv_of_u), ring.position_of_v = lift(plane.uv_of_v), ring.position_of_w = lift(plane.uv_of_w);
+  for (const Vec2f& p : plane.uv) ring.positions.push_back(lift(p));
+  return ring;
+}
 
 adapt::CollapseRing random_ring(Rng& rng, int corners, bool planar, bool on_curve) {
   adapt::CollapseRing ring;

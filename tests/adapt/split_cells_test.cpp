@@ -23,17 +23,18 @@ struct Tally {
   int u_damped = 0, crossings_damped = 0, splits = 0;
 };
 
-Tally tally_of(const Mesh& input, std::size_t faces) {
+Tally tally_of(const Mesh& input, std::size_t faces, simplify::CollapseKind collapse = simplify::CollapseKind::half) {
   simplify::SimplifyOptions options;
   options.metric = simplify::MetricName::qem5;
   options.target_faces = faces;
+  options.collapse = collapse;
   progressive::ProgressiveMesh mesh(progressive::make_progressive(welded_by_position(input), options).data);
   Tally tally;
   for (mesh.go_to(mesh.split_count()); mesh.level() > 0; mesh.go_to(mesh.level() - 1)) {
     ++tally.splits;
     const auto charts = cells_of_split(mesh, mesh.level() - 1);
     REQUIRE(charts.size() >= 1);
-    REQUIRE(charts.size() <= 2);
+    REQUIRE(charts.size() <= (collapse == simplify::CollapseKind::half ? 2 : 4));
     for (const ChartCells& chart : charts) {
       ++tally.status[chart.status];
       if (chart.status != CellStatus::made) continue;
@@ -72,4 +73,29 @@ TEST_CASE("split cells: the head down to 499 faces") {
   report("head", tally);
   CHECK(tally.splits > 3000);
   CHECK(tally.status.at(CellStatus::made) >= tally.splits * 95 / 100);
+}
+
+TEST_CASE("split cells: full-edge collapses of the swirl and the head") {
+  const Tally swirl = tally_of(procedural::make_swirl().mesh, 399, simplify::CollapseKind::full);
+  report("swirl, full-edge", swirl);
+  CHECK(swirl.status.at(CellStatus::made) >= swirl.splits * 99 / 100);
+  const Tally head = tally_of(procedural::make_head({.faces = 3000, .texture_size = 64}).mesh, 300, simplify::CollapseKind::full);
+  report("head, full-edge", head);
+  CHECK(head.status.at(CellStatus::made) >= head.splits * 98 / 100);
+}
+
+TEST_CASE("split cells: faces around vertices, kept on the way down, give the same rings as looking at every face") {
+  simplify::SimplifyOptions options;
+  options.collapse = simplify::CollapseKind::full;
+  progressive::ProgressiveMesh mesh(
+      progressive::make_progressive(welded_by_position(procedural::make_head({.faces = 400, .texture_size = 64}).mesh), options).data);
+  mesh.go_to(mesh.split_count());
+  VertexFaces faces(mesh);
+  std::size_t moved = 0;
+  for (std::size_t n = mesh.split_count(); n-- > 0; mesh.go_to(n)) {
+    moved += mesh.data().splits[n].move != progressive::kNone ? 1 : 0;
+    REQUIRE(cells_of_split(mesh, n, &faces) == cells_of_split(mesh, n));
+    faces.coarsen(mesh, n);
+  }
+  CHECK(moved > 50);
 }
