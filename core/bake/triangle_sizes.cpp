@@ -1,0 +1,149 @@
+#include "core/bake/triangle_sizes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <queue>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/math/nearest_point.h"
+#include "core/mesh/adjacency.h"
+
+namespace etalon::bake {
+namespace {
+
+// Class k holds the triangles of size 2^k.
+std::size_t class_of(int size) { return static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(size))) % kSizeCount; }
+
+// (proximity or ratio, face): least first.
+using Entry = std::pair<double, std::uint32_t>;
+using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
+
+class Filter {
+ public:
+  Filter(const std::vector<double>& ratios, int width, int height)
+      : ratios_(ratios), width_(width), height_(static_cast<std::uint64_t>(height)) {
+    const int largest = largest_size(width, height);
+    for (std::uint32_t f = 0; f < ratios.size(); ++f) {
+      result_.sizes.push_back(wanted_size(ratios[f], largest));
+      ++counts_[class_of(result_.sizes[f])];
+    }
+  }
+
+  TriangleSizes run(const std::function<void(const SizeStep&)>& observe) {
+    Queue queue;
+    for (std::uint32_t f = 0; f < ratios_.size(); ++f)
+      if (result_.sizes[f] > 2) queue.emplace(proximity(f), f);
+    while (!fits()) {
+      ETALON_CHECK(!queue.empty(), "all triangles are of the least size, and the map was found large enough for that");
+      const auto [least, f] = queue.top();
+      queue.pop();
+      if (observe) observe({FaceId(f), result_.sizes[f], least});
+      halve(f);
+      ++result_.reductions;
+      if (result_.sizes[f] > 2) queue.emplace(proximity(f), f);
+    }
+    make_even();
+    return std::move(result_);
+  }
+
+ private:
+  [[nodiscard]] double proximity(std::uint32_t f) const { return ratios_[f] / (result_.sizes[f] / 2); }
+
+  // The area says no at once where it can; what passes need not fit: three pairs of size 256 use 75 % of 512 x 512 and need 514 rows.
+  [[nodiscard]] bool fits() const {
+    const SizeCounts even = even_counts(counts_);
+    std::uint64_t area = 0;
+    for (std::size_t k = 1; k < kSizeCount; ++k) area += even[k] * texels_of_size(std::uint64_t{1} << k);
+    return area <= static_cast<std::uint64_t>(width_) * height_ && tiling_height(even, width_) <= height_;
+  }
+
+  void halve(std::uint32_t f) {
+    --counts_[class_of(result_.sizes[f])];
+    result_.sizes[f] /= 2;
+    ++counts_[class_of(result_.sizes[f])];
+  }
+
+  void make_even() {
+    std::array<std::vector<Entry>, kSizeCount> members;
+    for (std::uint32_t f = 0; f < ratios_.size(); ++f) members[class_of(result_.sizes[f])].emplace_back(ratios_[f], f);
+    std::size_t lowest = 0;
+    while (lowest < kSizeCount && members[lowest].empty()) ++lowest;
+    for (std::size_t k = kSizeCount - 1; k > lowest && k < kSizeCount; --k) {
+      if (members[k].size() % 2 == 0) continue;
+      const auto least = std::min_element(members[k].begin(), members[k].end());
+      members[k - 1].push_back(*least);
+      halve(least->second);
+      ++result_.handed_down;
+    }
+  }
+
+  const std::vector<double>& ratios_;
+  int width_;
+  std::uint64_t height_;
+  SizeCounts counts_{};
+  TriangleSizes result_;
+};
+
+}  // namespace
+
+double mean_edge_length(const Mesh& mesh) {
+  const Adjacency adjacency(mesh);
+  double sum = 0;
+  for (std::uint32_t e = 0; e < adjacency.edge_count(); ++e) {
+    const HalfEdgeId h = adjacency.half_edges(EdgeId(e))[0];
+    const Vec3d d = difference_of(mesh.positions[adjacency.start(h)], mesh.positions[adjacency.end(h)]);
+    sum += std::sqrt(dot_product(d, d));
+  }
+  return adjacency.edge_count() == 0 ? 0 : sum / static_cast<double>(adjacency.edge_count());
+}
+
+std::vector<double> size_ratios(const Mesh& mesh, double spacing) {
+  ETALON_CHECK(spacing > 0, fmt::format("spacing {}", spacing));
+  std::vector<double> ratios;
+  ratios.reserve(mesh.face_count());
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    double longest2 = 0;
+    for (int c = 0; c < 3; ++c) {
+      const Vec3d d = difference_of(mesh.position(FaceId(f), c), mesh.position(FaceId(f), (c + 1) % 3));
+      longest2 = std::max(longest2, dot_product(d, d));
+    }
+    ratios.push_back(std::sqrt(longest2) / spacing);
+  }
+  return ratios;
+}
+
+int wanted_size(double ratio, int largest) {
+  int size = 2;
+  while (size < largest && size < ratio) size *= 2;
+  return size;
+}
+
+int largest_size(int width, int height) {
+  constexpr int kLargest = 32768;
+  if (width < 2 || width > kLargest || !std::has_single_bit(static_cast<unsigned>(width)))
+    throw InputError(fmt::format("a texture map of {}x{}: expected a width that is a power of two, 2 to {}", width, height, kLargest));
+  if (height < 3 || height > kLargest)
+    throw InputError(fmt::format("a texture map of {}x{}: expected a height of 3 to {}", width, height, kLargest));
+  int size = width;
+  while (size + 1 > height) size /= 2;
+  return size;
+}
+
+TriangleSizes choose_sizes(const std::vector<double>& ratios, int width, int height, const std::function<void(const SizeStep&)>& observe) {
+  (void)largest_size(width, height);
+  for (std::size_t f = 0; f < ratios.size(); ++f)
+    if (!(ratios[f] >= 0) || std::isinf(ratios[f]))
+      throw InputError(fmt::format("triangle {}: its longest edge over the spacing: expected a finite number, got {}", f, ratios[f]));
+  const std::uint64_t least = least_height(ratios.size(), width);
+  if (least > static_cast<std::uint64_t>(height))
+    throw InputError(
+        fmt::format("{} triangles do not fit in a texture map of {}x{}: the smallest of this width is {}x{}, the smallest square {}x{}",
+                    ratios.size(), width, height, width, least, least_square(ratios.size()), least_square(ratios.size())));
+  return Filter(ratios, width, height).run(observe);
+}
+
+}  // namespace etalon::bake

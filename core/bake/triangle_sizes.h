@@ -1,0 +1,45 @@
+// How large each triangle is in the texture map: as its longest edge and the scan's spacing ask, then smaller until all fit
+// [Soucy, Godin & Rioux 1996, sec. 3].
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/bake/tiling.h"
+#include "core/mesh/mesh.h"
+
+namespace etalon::bake {
+
+/// D_i: the mean length of the edges of the scan, each counted once, in model units; 0 for a mesh without edges of length above 0.
+[[nodiscard]] double mean_edge_length(const Mesh& mesh);
+
+/// #F: E_max / D_i, the longest edge of each triangle over the spacing, `spacing` > 0.
+[[nodiscard]] std::vector<double> size_ratios(const Mesh& mesh, double spacing);
+
+/// The smallest power of two that is not below `ratio`, from 2 to `largest` (a power of two).
+[[nodiscard]] int wanted_size(double ratio, int largest);
+/// The largest size whose rectangle, d × (d + 1), a map can hold; InputError for a map that none can be in: width is a power of two,
+/// 2 to 32768, height 3 to 32768.
+[[nodiscard]] int largest_size(int width, int height);
+
+/// One step of the filtering: `face` goes from size `from` to half of it; proximity: its ratio over that half.
+struct SizeStep {
+  FaceId face;
+  int from = 0;
+  double proximity = 0;
+};
+
+struct TriangleSizes {
+  std::vector<int> sizes;       ///< #F: powers of two, at least 2; every class but the lowest is even
+  std::size_t reductions = 0;   ///< steps of the filtering
+  std::size_t handed_down = 0;  ///< steps for the sake of even classes
+};
+
+/// The sizes for a map of width × height texels. While the tiling (with even classes) is higher than the map, the triangle of least
+/// proximity, ties to the lower face, goes to half its size; at last every odd class but the lowest hands its triangle of least proximity
+/// to the next lower one. `observe` sees the steps of the filtering. InputError, with the smallest map that would do, where the triangles
+/// do not fit at size 2; for a map that largest_size() refuses; for a ratio that is not finite.
+[[nodiscard]] TriangleSizes choose_sizes(const std::vector<double>& ratios, int width, int height,
+                                         const std::function<void(const SizeStep&)>& observe = {});
+
+}  // namespace etalon::bake
