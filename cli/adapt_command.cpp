@@ -15,15 +15,14 @@
 #include "cli/adapt_psnr.h"
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
+#include "cli/gl_options.h"
 #include "cli/interrupt.h"
 #include "cli/model_input.h"
 #include "cli/size_option.h"
 #include "cli/usage_error.h"
-#include "core/adapt/cell_chunks.h"
 #include "core/adapt/resolve_texture.h"
 #include "core/io/atomic_file.h"
 #include "core/io/image_file.h"
-#include "core/io/inputs.h"
 #include "core/io/mesh_file.h"
 #include "core/progressive/epm_format.h"
 #include "raster/cpu_renderer.h"
@@ -40,6 +39,8 @@ constexpr int kPsnrViewSize = 1024;
 struct Options {
   std::string input, output, map, size = "1024", format = "float32", filter = "linear";
   std::vector<std::string> textures;
+  std::string backend = "cpu";
+  GlOptions gl;
   bool through_map = false, analytic = false, psnr = false;
   std::int64_t faces = 0;
   CommonOptions common;
@@ -78,13 +79,12 @@ Outputs make_outputs(const Options& options, FrameSize size, const std::vector<I
   Outputs outputs;
   const ChannelType type = map_type_named(options.format);
   if (!options.map.empty() || options.through_map) outputs.map = level.map(size.width, size.height, type, "map");
-  raster::CpuRenderer renderer;
   for (const Image& texture : textures) {
     if (options.through_map) {
-      outputs.textures.push_back(adapt::resolve_texture(renderer, texture, outputs.map, level.filter));
+      outputs.textures.push_back(adapt::resolve_texture(level.renderer, texture, outputs.map, level.filter));
     } else if (options.analytic) {
       const Image exact = level.map(texture.width(), texture.height(), ChannelType::float32, "texture");
-      outputs.textures.push_back(adapt::resolve_texture(renderer, texture, exact, Filter::nearest));
+      outputs.textures.push_back(adapt::resolve_texture(level.renderer, texture, exact, Filter::nearest));
     } else {
       outputs.textures.push_back(level.adapted(texture, "texture"));
     }
@@ -101,15 +101,6 @@ void write_outputs(const Options& options, const progressive::ProgressiveMesh& m
   Mesh level = mesh.mesh();
   level.face_materials.clear();
   io::write_mesh(options.output, level, {{.name = "adapted", .texture_path = {}, .texture = outputs.textures[0]}});
-}
-
-progressive::EpmContent read_whole(const std::string& path) {
-  const io::FileBytes file = io::read_file(path);
-  progressive::EpmContent content = naming_the_model(path, [&] { return progressive::decode_epm(file.bytes()); });
-  if (!content.complete)
-    throw InputError(fmt::format("{}: expected a whole progressive mesh, got {} of {} splits: a texture belongs to the finest level", path,
-                                 grouped(content.mesh.split_count()), grouped(content.splits_in_whole)));
-  return content;
 }
 
 int run(const Options& options) {
@@ -134,20 +125,19 @@ int run(const Options& options) {
 
   progressive::EpmContent content = read_whole(options.input);
   progressive::ProgressiveMesh& mesh = content.mesh;
-  const adapt::AdaptSequence sequence = naming_the_model(options.input, [&] {
-    const auto progress = [&](std::size_t done, std::size_t total) {
-      console.progress("cells", static_cast<int>(done), static_cast<int>(total));
-    };
-    if (auto stored = adapt::decode_cells(content, progress)) return std::move(*stored);
-    adapt::AdaptSequence made(mesh, progress);
-    console.line(fmt::format("note: {} has no cells: made now, the same that `etalon progressive` stores", options.input));
-    return made;
-  });
+  const adapt::AdaptSequence sequence = cells_of(content, options.input, console);
   const TextureSpace space = examine_texture_space(mesh, sequence, largest_side, options.input);
   const adapt::ChartBorders borders(mesh);
   mesh.go_to_faces(static_cast<std::size_t>(options.faces));
+  raster::CpuRenderer exact;
+  OpenedDevice opened;
+  if (options.backend == "gl") {
+    opened = open_device(options.gl, options.common.threads);
+    if (!opened.renderer) throw UnavailableError("GL: not available (" + opened.unavailable + ")");
+  }
   LevelImages level{.sequence = sequence,
                     .borders = borders,
+                    .renderer = opened.renderer ? *opened.renderer : exact,
                     .level = mesh.level(),
                     .filter = options.filter == "nearest" ? Filter::nearest : Filter::linear,
                     .analytic = options.analytic,
@@ -162,6 +152,7 @@ int run(const Options& options) {
   document["adaptations"] = level.adaptations;
   document["packs"] = level.packs;
   document["way"] = options.analytic ? "analytic" : options.through_map ? "through map" : "direct";
+  document["backend"] = options.backend;
   document["format"] = options.format;
   document["filter"] = options.filter;
   document["unnamed_texels"] = unnamed;
@@ -195,6 +186,7 @@ int run(const Options& options) {
   info.paths = {options.input};
   info.paths.insert(info.paths.end(), options.textures.begin(), options.textures.end());
   for (const std::filesystem::path& path : written) info.paths.push_back(path.string());
+  if (opened.renderer) info.device = opened.renderer->name();
   document["run"] = validation::to_json(info);
   write_document(options.common, document);
   return reached && unnamed == 0 && !space.overlaps() ? kExitDone : kExitWarning;
@@ -236,6 +228,10 @@ Verb add_adapt(CLI::App& root) {
       ->check(CLI::IsMember({"linear", "nearest"}));
   app->add_flag("--psnr", options->psnr,
                 "Draw the 24 views of the full model and of the level, with the adapted first texture and without");
+  app->add_option("--backend", options->backend, "What adapts and looks up: cpu, the exact rasterizer (default), or gl: OpenGL")
+      ->type_name("KIND")
+      ->check(CLI::IsMember({"cpu", "gl"}));
+  add_gl_options(*app, options->gl);
   add_common_options(*app, options->common,
                      "  etalon adapt head.epm --faces 500 --texture head_texture.png -o head500.obj\n  (after: etalon make head -o "
                      "head.obj; etalon progressive head.obj --metric qem5 -o head.epm)");

@@ -11,7 +11,6 @@
 #include "core/adapt/chain_index.h"
 #include "core/base/error.h"
 #include "core/io/image_file.h"
-#include "raster/cpu_renderer.h"
 
 namespace etalon::cli {
 namespace {
@@ -32,7 +31,6 @@ Image with_third_channel(const Image& map) {
 }  // namespace
 
 Image LevelImages::adapted(Image image, const std::string& what) {
-  raster::CpuRenderer renderer;
   adapt::Gutter gutter(borders, image.width(), image.height());
   adapt::AdaptOptions how{.filter = filter, .gutter = &gutter, .progress = {}};
   how.progress = [&](std::size_t done, std::size_t total) { console.progress(what, static_cast<int>(done), static_cast<int>(total)); };
@@ -44,7 +42,7 @@ Image LevelImages::adapted(Image image, const std::string& what) {
                     {"height", image.height()},
                     {"adaptations", counts.adaptations},
                     {"packs", counts.packs},
-                    {"texels_written", counts.texels},
+                    {"texels_written", counts.texels > 0 || counts.packs == 0 ? Json(counts.texels) : Json()},  // a device does not count
                     {"uncovered", counts.uncovered},
                     {"doubled", counts.doubled},
                     {"gutter_written", counts.gutter},

@@ -18,6 +18,7 @@ namespace etalon::cli {
 struct LevelImages {
   const adapt::AdaptSequence& sequence;
   const adapt::ChartBorders& borders;
+  Renderer& renderer;
   std::size_t level = 0;
   Filter filter = Filter::linear;
   bool analytic = false;  ///< the exact chain of cells instead of a map adapted split by split

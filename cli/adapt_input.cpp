@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/model_input.h"
+#include "core/adapt/cell_chunks.h"
 #include "core/base/error.h"
+#include "core/io/inputs.h"
 #include "validation/report/json_report.h"
 
 namespace etalon::cli {
@@ -22,6 +26,27 @@ double farthest_outside(const MeshReport& report) {
 }
 
 }  // namespace
+
+progressive::EpmContent read_whole(const std::string& path) {
+  const io::FileBytes file = io::read_file(path);
+  progressive::EpmContent content = naming_the_model(path, [&] { return progressive::decode_epm(file.bytes()); });
+  if (!content.complete)
+    throw InputError(fmt::format("{}: expected a whole progressive mesh, got {} of {} splits: a texture belongs to the finest level", path,
+                                 grouped(content.mesh.split_count()), grouped(content.splits_in_whole)));
+  return content;
+}
+
+adapt::AdaptSequence cells_of(progressive::EpmContent& content, const std::string& name, Console& console) {
+  return naming_the_model(name, [&] {
+    const auto progress = [&](std::size_t done, std::size_t total) {
+      console.progress("cells", static_cast<int>(done), static_cast<int>(total));
+    };
+    if (auto stored = adapt::decode_cells(content, progress)) return std::move(*stored);
+    adapt::AdaptSequence made(content.mesh, progress);
+    console.line(fmt::format("note: {} has no cells: made now, the same that `etalon progressive` stores", name));
+    return made;
+  });
+}
 
 bool TextureSpace::overlaps() const { return report.uv_overlap_share > kMostOverlap; }
 

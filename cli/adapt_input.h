@@ -1,4 +1,4 @@
-// What is wrong with a progressive mesh in texture space before anything is adapted there: said, counted, or refused.
+// The progressive mesh that `etalon adapt` reads, its cells, and what is wrong with it in texture space: said, counted, or refused.
 #pragma once
 
 #include <array>
@@ -9,8 +9,15 @@
 #include "cli/console.h"
 #include "core/adapt/cell_statistics.h"
 #include "core/mesh/mesh_validation.h"
+#include "core/progressive/epm_format.h"
 
 namespace etalon::cli {
+
+/// A progressive mesh with all its splits; InputError for a part of one: a texture belongs to the finest level.
+[[nodiscard]] progressive::EpmContent read_whole(const std::string& path);
+
+/// The cells that the file holds, or the same made now, which is said. InputError naming `name`: no texture coordinates, or damaged cells.
+[[nodiscard]] adapt::AdaptSequence cells_of(progressive::EpmContent& content, const std::string& name, Console& console);
 
 struct TextureSpace {
   MeshReport report;                                         ///< of the finest level

@@ -10,6 +10,7 @@
 
 #include "tests/cli/run_command.h"
 #include "tests/cli/schema_validator.h"
+#include "tests/support/skip.h"
 
 using namespace etalon::test;
 using nlohmann::json;
@@ -209,6 +210,35 @@ TEST_CASE("adapt: --psnr says that the adapted texture shows the model better; a
   const json same = run_adapt(folder, finest, 0);
   CHECK(same["psnr_db"]["adapted"].is_null());
   CHECK(same["psnr_db"]["unadapted"].is_null());
+}
+
+TEST_CASE("adapt: --backend gl, --shader exact gives the exact renderer's bytes; native ones are close") {
+  const ScratchFolder folder;
+  make_swirl(folder);
+  const CommandResult exact =
+      run_etalon({"adapt", "swirl.epm", "--faces", "300", "--map", "gl.exr", "--size", "64", "--backend", "gl", "--shader", "exact"},
+                 {.folder = folder.path()});
+  if (exact.exit_code == 4 && exact.err.find("GL: not available") != std::string::npos) return report_skip("adapt --backend gl", exact.err);
+  REQUIRE(exact.exit_code == 0);
+  const json cpu = run_adapt(folder, {"swirl.epm", "--faces", "300", "--map", "cpu.exr", "--size", "64"}, 0);
+  CHECK(cpu["backend"] == "cpu");
+  CHECK(read_text(folder.path() / "cpu.exr") == read_text(folder.path() / "gl.exr"));
+  const json native = run_adapt(folder, {"swirl.epm", "--faces", "300", "--map", "gl.exr", "--size", "64", "--backend", "gl"}, 0);
+  CHECK(native["backend"] == "gl");
+  CHECK(native["run"]["device"].get<std::string>().find("llvmpipe") != std::string::npos);
+  CHECK(native["map_error_texels"]["median"].get<double>() < cpu["map_error_texels"]["median"].get<double>() + 0.01);
+  CHECK(native["images"][0]["texels_written"].is_null());
+}
+
+TEST_CASE("adapt: --backend gl where there is no OpenGL is refused in words") {
+  const ScratchFolder folder;
+  make_swirl(folder);
+  const CommandResult result =
+      run_etalon({"adapt", "swirl.epm", "--faces", "300", "--map", "gl.exr", "--backend", "gl"},
+                 {.folder = folder.path(), .environment = {"MESA_GL_VERSION_OVERRIDE=2.1", "MESA_GLSL_VERSION_OVERRIDE=120"}});
+  CHECK(result.exit_code == 1);
+  CHECK(result.err.find("GL: not available (") != std::string::npos);
+  CHECK(!std::filesystem::exists(folder.path() / "gl.exr"));
 }
 
 TEST_CASE("adapt: levels at both ends") {
