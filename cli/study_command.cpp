@@ -8,6 +8,7 @@
 #include <CLI/Formatter.hpp>
 
 #include "cli/call_files.h"
+#include "cli/chen_subjects.h"
 #include "cli/exit_code.h"
 #include "cli/gl_options.h"
 #include "cli/interrupt.h"
@@ -17,6 +18,7 @@
 #include "validation/report/html_report.h"
 #include "validation/report/json_report.h"
 #include "validation/report/study_page.h"
+#include "validation/studies/chen_report.h"
 #include "validation/studies/kim_report.h"
 
 namespace etalon::cli {
@@ -26,10 +28,21 @@ using namespace etalon::validation;
 
 struct Options {
   std::string study;
-  SubjectOptions subjects;
+  std::vector<std::string> models;
+  double reduction = 0.9;
+  std::vector<std::size_t> faces;
+  std::string texture, data;
+  bool flip_v = false, quick = false;
   std::string report;  ///< empty: etalon-study-NAME
   GlOptions gl;
   CommonOptions common;
+};
+
+/// What a study leaves to write.
+struct Studied {
+  StudyReport report;
+  std::string device_name;
+  std::uint64_t unexplained = 0;  ///< texels between both renderers
 };
 
 void print_subject(const KimSubjectResult& subject, Console& console) {
@@ -41,7 +54,7 @@ void print_subject(const KimSubjectResult& subject, Console& console) {
 
 KimStudyOptions study_options(const Options& options, const OpenedDevice& device, Console& console) {
   KimStudyOptions result;
-  if (options.subjects.quick) {
+  if (options.quick) {
     result.picture_px = 192;
     result.views_px = 96;
     result.view_count = 4;
@@ -57,15 +70,64 @@ KimStudyOptions study_options(const Options& options, const OpenedDevice& device
   return result;
 }
 
+Studied study_kim(const Options& options, const OpenedDevice& device, Console& console, CallFiles& files) {
+  const SubjectOptions which{.models = options.models, .data = options.data, .reduction = options.reduction, .quick = options.quick};
+  const std::vector<KimSubject> subjects = load_subjects(which, console, files);
+  raster::CpuRenderer exact;
+  const KimStudyResult result = run_kim_study(subjects, exact, study_options(options, device, console));
+  return {kim_report(result), result.device_name, result.unexplained()};
+}
+
+void print_subject(const ChenSubjectResult& subject, Console& console) {
+  const auto db = [](const std::optional<double>& value) { return value ? fmt::format("{:6.2f}", *value) : std::string("  same"); };
+  for (std::size_t t = 0; t < subject.textures.size(); ++t)
+    for (std::size_t l = 0; l < subject.levels.size(); ++l) {
+      std::string line = fmt::format("{:<10} {:<8} {:>6} faces, dB masked (whole):", subject.name, subject.textures[t], subject.levels[l]);
+      for (const ChenMethod method : kChenMethods) {
+        const ChenOutcome& o = subject.of(t, l, method);
+        line += fmt::format("  {} {} ({})", to_string(method), db(o.masked_db), db(o.whole_db));
+      }
+      console.line(line);
+    }
+}
+
+Studied study_chen(const Options& options, const OpenedDevice& device, Console& console, CallFiles& files) {
+  raster::CpuRenderer exact;
+  const ChenSubjectOptions which{.models = options.models,
+                                 .levels = options.faces,
+                                 .texture = options.texture,
+                                 .flip_v = options.flip_v,
+                                 .data = options.data,
+                                 .quick = options.quick};
+  ChenStudyOptions how;
+  if (options.quick) how.map_size = 256, how.views_px = 192, how.view_count = 4, how.picture_px = 192, how.device_singles = 60;
+  how.device = device.renderer.get();
+  how.progress = [&console](const std::string& label, int done, int total) { console.progress(label, done, total); };
+  how.on_subject = [&console](const ChenSubjectResult& subject) { print_subject(subject, console); };
+  const ChenStudyResult result = run_chen_study(load_chen_subjects(which, exact, console, files), exact, how);
+  return {chen_report(result), result.device_name, 0};
+}
+
 /// What to type to repeat it, paths by their last part.
 std::string command_of(const Options& options) {
   std::string command = "etalon study " + options.study;
-  for (const std::string& model : options.subjects.models) command += " " + std::filesystem::path(model).filename().string();
-  return command + (options.subjects.quick ? " --quick" : "");
+  for (const std::string& model : options.models) command += " " + std::filesystem::path(model).filename().string();
+  for (const std::size_t faces : options.faces) command += fmt::format(" --faces {}", faces);
+  if (!options.texture.empty()) command += " --texture " + std::filesystem::path(options.texture).filename().string();
+  if (options.flip_v) command += " --flip-v";
+  return command + (options.quick ? " --quick" : "");
+}
+
+void check_options(const Options& options) {
+  const bool chen = options.study == "chen";
+  if (!chen && (!options.faces.empty() || !options.texture.empty() || options.flip_v))
+    throw UsageError(fmt::format("study {}: --faces, --texture and --flip-v belong to study chen", options.study));
+  if (chen && options.reduction != Options{}.reduction) throw UsageError("study chen: --reduction belongs to study kim (try --faces N)");
 }
 
 int run(const Options& options) {
   apply(options.common);
+  check_options(options);
   const std::string folder = options.report.empty() ? "etalon-study-" + options.study : options.report;
   require_writable_folder(folder);
   Console console(console_options(options.common));
@@ -74,14 +136,12 @@ int run(const Options& options) {
     files.add_output((std::filesystem::path(folder) / name).string(), "--report");
   files.add_output(options.common.json, "--json");
   require_writable_file(options.common.json);
-  const std::vector<KimSubject> subjects = load_subjects(options.subjects, console, files);
   const OpenedDevice device = open_device(options.gl, options.common.threads);
   console.line(fmt::format("device   {}", device.renderer ? device.renderer->name() : "GL: not available (" + device.unavailable + ")"));
 
-  raster::CpuRenderer exact;
-  const KimStudyResult result = run_kim_study(subjects, exact, study_options(options, device, console));
-  StudyReport report = kim_report(result);
-  if (options.subjects.quick) {
+  Studied studied = (options.study == "chen" ? study_chen : study_kim)(options, device, console, files);
+  StudyReport& report = studied.report;
+  if (options.quick) {
     const std::string warning = "A quick run: small models, few samples. No figure of it counts.";
     report.lede = warning + " " + report.lede;
     console.line("note: " + warning);
@@ -90,10 +150,9 @@ int run(const Options& options) {
     console.line(fmt::format("{:<6} {} {}", to_string(claim.verdict), claim.claim, claim.measured));
 
   RunInfo run_info = current_run(options.common.start);
-  for (const KimSubject& subject : subjects)
-    for (const VerifyInput& input : subject.inputs)
-      if (!input.path.empty()) run_info.paths.push_back(input.path);
-  run_info.device = result.device_name;
+  for (const VerifyInput& input : report.inputs)
+    if (!input.path.empty()) run_info.paths.push_back(input.path);
+  run_info.device = studied.device_name;
   std::filesystem::path page;
   {
     const FinishWriting finish;
@@ -101,8 +160,8 @@ int run(const Options& options) {
   }
   console.line("report: " + file_url(page));
   write_document(options.common, study_document(report, run_info));
-  if (result.unexplained() > 0) {
-    print_error(fmt::format("{} unexplained between both renderers", counted(result.unexplained(), "texel")));
+  if (studied.unexplained > 0) {
+    print_error(fmt::format("{} unexplained between both renderers", counted(studied.unexplained, "texel")));
     return kExitCheckFailed;
   }
   return kExitDone;
@@ -114,25 +173,36 @@ Verb add_study(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app =
       root.add_subcommand("study", "Repeat a paper's measurements: its tables and figures beside ours, each claim with a verdict");
-  app->add_option("study", options->study, "kim: Kim, Choi & Lee, mesh simplification with vertex colour")
+  app->add_option("study", options->study,
+                  "chen: Chen & Chuang, texture adaptation for progressive meshes; kim: Kim, Choi & Lee, mesh simplification with vertex "
+                  "colour")
       ->required()
-      ->type_name("kim")
-      ->check(CLI::IsMember({"kim"}));
-  app->add_option(
-         "models", options->subjects.models,
-         "Meshes with vertex colours, or monkey, duck, statue (default: these three at the paper's sizes, and the real ones found)")
+      ->type_name("chen|kim")
+      ->check(CLI::IsMember({"chen", "kim"}));
+  app->add_option("models", options->models,
+                  "chen: textured meshes, or swirl, head, parasaur, bunny, spot; kim: meshes with vertex colours, or monkey, duck, statue "
+                  "(default: those at the paper's sizes, real ones where they are found)")
       ->type_name("MODEL");
-  app->add_option("--reduction", options->subjects.reduction, "Share of the vertices of a mesh file that goes (default 0.9)")
+  app->add_option("--faces", options->faces, "chen: a level of the mesh files (repeat it; default a quarter, an eighth, a sixteenth)")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 32));
+  app->add_option("--texture", options->texture, "chen: image that replaces the mesh files' own textures")
+      ->type_name("IMG")
+      ->check(not_empty());
+  app->add_flag("--flip-v", options->flip_v,
+                "chen: the mesh files' texture coordinates run from top to bottom against their format's convention");
+  app->add_option("--reduction", options->reduction, "kim: share of the vertices of a mesh file that goes (default 0.9)")
       ->type_name("R")
       ->check(number_between(0.01, 0.999));
-  app->add_option("--data", options->subjects.data, "Folder of the real inputs (default $ETALON_DATA, else etalon in your cache)")
+  app->add_option("--data", options->data, "Folder of the real inputs (default $ETALON_DATA, else etalon in your cache)")
       ->type_name("DIR")
       ->check(not_empty());
-  app->add_flag("--quick", options->subjects.quick,
-                "Small models and few samples: seconds, to see whether it works; no figure of it counts");
+  app->add_flag("--quick", options->quick, "Small models and few samples: seconds, to see whether it works; no figure of it counts");
   app->add_option("--report", options->report, "Folder of the report (default etalon-study-NAME)")->type_name("DIR")->check(not_empty());
   add_gl_options(*app, options->gl);
-  add_common_options(*app, options->common, "  etalon study kim --quick\n  etalon study kim scan.ply --reduction 0.95 --report scan-study");
+  add_common_options(*app, options->common,
+                     "  etalon study chen --quick\n  etalon study chen fox.obj --faces 2000 --faces 500 --report fox-study\n  etalon study "
+                     "kim scan.ply --reduction 0.95 --report scan-study");
   return {app, [options] { return run(*options); }};
 }
 

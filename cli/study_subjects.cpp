@@ -55,14 +55,8 @@ KimSubject make_subject(const std::string& name, bool quick, Console& console) {
   return subject;
 }
 
-/// [a-z0-9_-] for names of files and anchors.
-std::string slug_of(const fs::path& path, const std::vector<KimSubject>& others) {
-  std::string slug;
-  for (const char c : path.stem().string()) {
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
-    slug += letter ? c : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : '_';
-  }
-  if (slug.empty()) slug = "model";
+std::string slug_among(const std::string& path, const std::vector<KimSubject>& others) {
+  const std::string slug = slug_of(path);
   std::string unique = slug;
   const auto taken = [&] {
     for (const KimSubject& other : others)
@@ -79,13 +73,24 @@ KimSubject read_subject(const std::string& path, double reduction, const std::ve
   add_side_files(files, model);
   if (model.mesh.colors.empty()) throw InputError(path + ": expected vertex colours, got none");
   KimSubject subject;
-  subject.name = slug_of(path, others);
+  subject.name = slug_among(path, others);
   subject.mesh = welded_by_position(model.mesh);
   subject.reduction = reduction;
   const std::string hash = io::file_sha256(path);
   subject.inputs.push_back(
       {.name = fs::path(path).filename().string(), .sha256 = hash, .path = path, .role = "model", .attribution = attribution_of(hash)});
   return subject;
+}
+
+}  // namespace
+
+std::string slug_of(const std::string& path) {
+  std::string slug;
+  for (const char c : fs::path(path).stem().string()) {
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+    slug += letter ? c : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : '_';
+  }
+  return slug.empty() ? "model" : slug;
 }
 
 std::string data_folder(const std::string& given) {
@@ -95,8 +100,6 @@ std::string data_folder(const std::string& given) {
   if (const char* home = std::getenv("HOME")) return std::string(home) + "/.cache/etalon";
   return "";
 }
-
-}  // namespace
 
 std::vector<KimSubject> load_subjects(const SubjectOptions& options, Console& console, CallFiles& files) {
   std::vector<std::string> wanted = options.models;

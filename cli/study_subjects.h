@@ -20,4 +20,10 @@ struct SubjectOptions {
 /// Reads or makes them; files are added to `files`. InputError where a file cannot be read or has no vertex colours.
 [[nodiscard]] std::vector<validation::KimSubject> load_subjects(const SubjectOptions& options, Console& console, CallFiles& files);
 
+/// The stem of a file's name in [a-z0-9_]: for names of files and anchors.
+[[nodiscard]] std::string slug_of(const std::string& path);
+
+/// Where real inputs are looked for: `given`, else $ETALON_DATA, else etalon in the user's cache; empty where none of them is known.
+[[nodiscard]] std::string data_folder(const std::string& given);
+
 }  // namespace etalon::cli

@@ -40,22 +40,61 @@ class Taken {
       : columns_((width + kBlock - 1) / kBlock),
         pack_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>((height + kBlock - 1) / kBlock), 0) {}
 
-  // Takes the region; whether all of it was free.
-  bool take(const Region& region, std::uint32_t pack) {
-    bool free = true;
+  [[nodiscard]] bool is_free(const Region& region, std::uint32_t pack) const {
     for (int y = region.y0; y <= region.y1; ++y)
-      for (int x = region.x0; x <= region.x1; ++x) {
-        std::uint32_t& block = pack_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x)];
-        free &= block != pack;
-        block = pack;
-      }
-    return free;
+      for (int x = region.x0; x <= region.x1; ++x)
+        if (pack_[block(x, y)] == pack) return false;
+    return true;
+  }
+  void take(const Region& region, std::uint32_t pack) {
+    for (int y = region.y0; y <= region.y1; ++y)
+      for (int x = region.x0; x <= region.x1; ++x) pack_[block(x, y)] = pack;
   }
 
  private:
+  [[nodiscard]] std::size_t block(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x);
+  }
   int columns_;
   std::vector<std::uint32_t> pack_;
 };
+
+enum class PackRule : std::uint8_t { safe, printed };
+
+std::vector<std::vector<std::uint32_t>> packs_by(PackRule rule, const AdaptSequence& sequence, std::size_t from, std::size_t to, int width,
+                                                 int height, int reach) {
+  ETALON_CHECK(from <= sequence.size() && to <= sequence.size() && width > 0 && height > 0, "packing: levels and size");
+  struct Waiting {
+    std::uint32_t split;
+    Region region;
+  };
+  std::vector<Waiting> waiting, later;
+  std::vector<ChartCells> charts;
+  const std::size_t low = std::min(from, to), high = std::max(from, to);
+  for (std::size_t n = 0; n < high - low; ++n) {
+    const std::size_t split = from < to ? low + n : high - 1 - n;
+    sequence.read(split, charts);
+    if (has_cells(charts)) waiting.push_back({static_cast<std::uint32_t>(split), region_of(charts, width, height, reach)});
+  }
+  Taken taken(width, height);
+  std::vector<std::vector<std::uint32_t>> packs;
+  while (!waiting.empty()) {
+    std::vector<std::uint32_t>& pack = packs.emplace_back();
+    const auto number = static_cast<std::uint32_t>(packs.size());
+    later.clear();
+    for (const Waiting& w : waiting) {
+      const bool free = taken.is_free(w.region, number);
+      if (free || rule == PackRule::safe) taken.take(w.region, number);
+      if (free) {
+        pack.push_back(w.split);
+      } else {
+        later.push_back(w);
+      }
+    }
+    std::swap(waiting, later);
+  }
+  return packs;
+}
 
 }  // namespace
 
@@ -96,34 +135,11 @@ Vec2d AdaptSequence::follow(Vec2d p, std::size_t from, std::size_t to) const {
 
 std::vector<std::vector<std::uint32_t>> pack_splits(const AdaptSequence& sequence, std::size_t from, std::size_t to, int width, int height,
                                                     int reach) {
-  ETALON_CHECK(from <= sequence.size() && to <= sequence.size() && width > 0 && height > 0, "packing: levels and size");
-  struct Waiting {
-    std::uint32_t split;
-    Region region;
-  };
-  std::vector<Waiting> waiting, later;
-  std::vector<ChartCells> charts;
-  const std::size_t low = std::min(from, to), high = std::max(from, to);
-  for (std::size_t n = 0; n < high - low; ++n) {
-    const std::size_t split = from < to ? low + n : high - 1 - n;
-    sequence.read(split, charts);
-    if (has_cells(charts)) waiting.push_back({static_cast<std::uint32_t>(split), region_of(charts, width, height, reach)});
-  }
-  Taken taken(width, height);
-  std::vector<std::vector<std::uint32_t>> packs;
-  while (!waiting.empty()) {
-    std::vector<std::uint32_t>& pack = packs.emplace_back();
-    later.clear();
-    for (const Waiting& w : waiting) {
-      if (taken.take(w.region, static_cast<std::uint32_t>(packs.size()))) {
-        pack.push_back(w.split);
-      } else {
-        later.push_back(w);
-      }
-    }
-    std::swap(waiting, later);
-  }
-  return packs;
+  return packs_by(PackRule::safe, sequence, from, to, width, height, reach);
+}
+
+std::size_t count_printed_packs(const AdaptSequence& sequence, std::size_t from, std::size_t to, int width, int height, int reach) {
+  return packs_by(PackRule::printed, sequence, from, to, width, height, reach).size();
 }
 
 }  // namespace etalon::adapt

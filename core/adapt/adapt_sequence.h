@@ -42,4 +42,9 @@ class AdaptSequence {
 [[nodiscard]] std::vector<std::vector<std::uint32_t>> pack_splits(const AdaptSequence& sequence, std::size_t from, std::size_t to,
                                                                   int width, int height, int reach = 1);
 
+/// How many packs the rule as printed makes of the same splits and regions: there a region passed over holds back none after it. To compare
+/// with the paper's numbers only; those packs give another map.
+[[nodiscard]] std::size_t count_printed_packs(const AdaptSequence& sequence, std::size_t from, std::size_t to, int width, int height,
+                                              int reach = 1);
+
 }  // namespace etalon::adapt

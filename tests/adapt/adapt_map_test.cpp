@@ -104,3 +104,14 @@ TEST_CASE("adapt: packed is one by one, byte for byte, down and up") {
   for (std::size_t n = coarse; n < fine; ++n) (void)adapt_map(renderer, s.sequence, n, n + 1, single);
   CHECK(packed == single);
 }
+
+TEST_CASE("adapt: the rule as printed makes fewer, larger packs, since passed-over regions do not block") {
+  const AdaptSequence& sequence = test::swirl().sequence;
+  const std::size_t fine = sequence.size(), safe = pack_splits(sequence, fine, 0, 512, 512).size(),
+                    printed = count_printed_packs(sequence, fine, 0, 512, 512);
+  CHECK(printed < safe);
+  CHECK(printed > 1);
+  // Where no two regions overlap no rule matters; one split is one pack.
+  CHECK(count_printed_packs(sequence, fine, fine - 1, 512, 512) == 1);
+  CHECK(count_printed_packs(sequence, fine, fine, 512, 512) == 0);
+}

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_command.h"
@@ -61,6 +62,44 @@ TEST_CASE("study kim --quick on its own models takes seconds and sweeps the unit
   CHECK(page.find("src=\"data:image/png;base64,") != std::string::npos);
 }
 
+TEST_CASE("study chen on a mesh of one's own: levels, texture, a document that keeps its schema") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "swirl", "--faces", "800", "-o", "fox.obj"}, {.folder = folder.path()}).exit_code == 0);
+  const CommandResult result =
+      run_etalon({"study", "chen", "fox.obj", "--faces", "300", "--faces", "120", "--quick", "--report", "out", "--json", "-"},
+                 {.folder = folder.path()});
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  json document = json::parse(result.out);
+  const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/study.json"));
+  for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
+  CHECK(document["study"] == "chen");
+  CHECK(document["inputs"][0]["name"] == "fox.obj");
+  CHECK(document["tables"][0]["name"] == "psnr-masked");
+  CHECK(document["tables"][0]["rows"].size() == 2);
+  CHECK(document["tables"][0]["rows"][0][2] == 300);
+  CHECK(document["claims"].size() == 9);
+  CHECK(document["run"]["claims"].size() == 1);
+  for (const char* file : {"index.html", "psnr-masked.csv", "table1-packs.csv", "table1-times.csv", "formats.csv", "fox-colour-300-map.png",
+                           "plane-m0-adapted.png"})
+    CHECK(std::filesystem::exists(folder.path() / "out" / file));
+  const std::string notes = read_text(folder.path() / "out" / "study.md");
+  CHECK(notes.find("](fox-colour-300-map.png)") != std::string::npos);
+}
+
+TEST_CASE("study chen --quick: the built-in models take seconds and show every figure that needs no other") {
+  const ScratchFolder folder;
+  const CommandResult result = run_etalon({"study", "chen", "--quick", "--report", "out"}, {.folder = folder.path()});
+  CAPTURE(result.err);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.out.find("through the map") != std::string::npos);
+  const std::string page = read_text(folder.path() / "out" / "index.html");
+  for (int figure = 1; figure <= 9; ++figure) CHECK(page.find(fmt::format("Figure {}: ", figure)) != std::string::npos);
+  CHECK(page.find("Figure 10: ") != std::string::npos);
+  CHECK(page.find("Figure 15: ") != std::string::npos);
+  CHECK(page.find("Several objects in one pass") != std::string::npos);
+}
+
 TEST_CASE("study: what is refused, and nothing is left behind") {
   const ScratchFolder folder;
   folder.file("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -72,6 +111,12 @@ TEST_CASE("study: what is refused, and nothing is left behind") {
   check_refused({"study", "kim", "plain.obj", "--reduction", "1"}, 64, folder, "--reduction");
   check_refused({"study", "kim", "duck", "--quick", "--report", "taken"}, 4, folder, "taken");
   check_refused({"study", "kim", "plain.obj", "--json", "plain.obj"}, 64, folder, "plain.obj");
+  check_refused({"study", "chen", "plain.obj"}, 4, folder, "plain.obj: expected texture coordinates, got none");
+  check_refused({"study", "chen", "swirl", "spot", "--quick", "--data", "nowhere"}, 4, folder, "spot: expected spot/spot_triangulated.obj");
+  check_refused({"study", "chen", "plain.obj", "--reduction", "0.5"}, 64, folder, "--reduction belongs to study kim");
+  check_refused({"study", "kim", "plain.obj", "--faces", "5"}, 64, folder, "belong to study chen");
+  check_refused({"study", "chen", "plain.obj", "--faces", "0"}, 64, folder, "--faces");
+  check_refused({"study", "chen", "--quick", "--report", "taken"}, 4, folder, "taken");
 }
 
 TEST_CASE("study: an interrupt ends it with 130 and without a report") {

@@ -56,10 +56,21 @@ std::vector<const StudyPicture*> pictures_of(const StudyReport& report) {
   return pictures;
 }
 
+/// A drawing that stands alone: what study.css says of its classes, in dark on white.
+std::string standalone(const std::string& svg) {
+  constexpr const char* kStyle =
+      "<style>svg{background:#fff;color:#1a1f2b}text{font:13px sans-serif;fill:#1a1f2b}.faint{fill:#667}.axis{stroke:#667;stroke-width:1}"
+      ".grid{stroke:#ddd;stroke-width:1}</style>";
+  const std::size_t head = svg.find('>') + 1;
+  return svg.substr(0, head) + kStyle + svg.substr(head) + "\n";
+}
+
 /// File name and bytes, index.html last.
 std::vector<std::pair<std::string, std::string>> contents(const StudyReport& report, const RunInfo& run, const std::string& command) {
   std::vector<std::pair<std::string, std::string>> files;
   for (const StudyPicture* picture : pictures_of(report)) files.emplace_back(picture->file, io::encode_png(picture->image, picture->file));
+  for (const StudyFigure& figure : report.figures)
+    if (!figure.svg.empty()) files.emplace_back(study_drawing_file(figure), standalone(figure.svg));
   for (const StudyTable& table : report.tables) files.emplace_back(table.name + ".csv", study_csv(table));
   files.emplace_back("study.md", study_markdown(report, run, command, measured_on(run)));
   files.emplace_back("study.json", to_text(study_document(report, run)));
@@ -120,6 +131,8 @@ std::string study_csv(const StudyTable& table) {
 std::vector<std::string> study_files(const StudyReport& report) {
   std::vector<std::string> names;
   for (const StudyPicture* picture : pictures_of(report)) names.push_back(picture->file);
+  for (const StudyFigure& figure : report.figures)
+    if (!figure.svg.empty()) names.push_back(study_drawing_file(figure));
   for (const StudyTable& table : report.tables) names.push_back(table.name + ".csv");
   names.insert(names.end(), {"study.md", "study.json", "index.html"});
   return names;

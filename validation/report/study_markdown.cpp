@@ -49,6 +49,8 @@ std::string table_text(const StudyTable& table) {
 
 }  // namespace
 
+std::string study_drawing_file(const StudyFigure& figure) { return figure.id + ".svg"; }
+
 std::string measured_on(const RunInfo& run) {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm utc{};
@@ -71,6 +73,12 @@ std::string study_markdown(const StudyReport& report, const RunInfo& run, const 
   text += "\n## Inputs\n\n";
   for (const VerifyInput& input : report.inputs)
     text += fmt::format("- {}, sha256 `{}`{}\n", input.name, input.sha256, input.attribution.empty() ? "" : ": " + input.attribution);
+  text += "\n## Figures\n";
+  for (const StudyFigure& figure : report.figures) {
+    text += fmt::format("\n### {}\n\n{}\n", figure.title, figure.caption);
+    if (!figure.svg.empty()) text += fmt::format("\n![{}]({})\n", figure.title, study_drawing_file(figure));
+    for (const StudyPicture& picture : figure.pictures) text += fmt::format("\n![{0}]({1})\n{0}\n", picture.label, picture.file);
+  }
   return text;
 }
 

@@ -1,4 +1,5 @@
-// The files of a study: one folder with index.html (self-contained), study.json, study.md, a CSV file a table, a PNG file a picture.
+// The files of a study: one folder with index.html (self-contained), study.json, study.md, a CSV file a table, a PNG
+// file a picture, an SVG file a drawing.
 #pragma once
 
 #include <filesystem>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/simplify/kim_metric.h"
-#include "validation/report/html_text.h"
+#include "validation/studies/svg.h"
 
 namespace etalon::validation {
 
@@ -15,15 +15,6 @@ namespace {
 std::string rgb(const Vec4f& c) {
   const auto byte = [](float x) { return static_cast<int>(x * 255 + 0.5f); };
   return fmt::format("rgb({},{},{})", byte(c.x), byte(c.y), byte(c.z));
-}
-
-std::string svg_open(int width, int height, const std::string& label) {
-  return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\" xmlns=\"http://www.w3.org/2000/svg\">", width, height,
-                     escaped(label));
-}
-
-std::string text(double x, double y, const std::string& words, const char* anchor = "start", const char* css = "") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" class=\"{}\">{}</text>", x, y, anchor, css, escaped(words));
 }
 
 Mesh flat_mesh(const std::vector<Vec2f>& places, const std::vector<std::array<std::uint32_t, 3>>& faces, const std::vector<Vec4f>& colors) {
@@ -124,8 +115,8 @@ std::string importance_drawing() {
   double x = 130;
   for (const Example& example : examples) {
     const Mesh mesh = color_fan(example.colors);
-    svg += fan_drawing(mesh, x, 115, 78) + text(x, 225, example.name, "middle", "faint") +
-           text(x, 250, fmt::format("I(v0) = {:.4g}", visual_importance(mesh, 0)), "middle");
+    svg += fan_drawing(mesh, x, 115, 78) + svg_text(x, 225, example.name, "middle", "faint") +
+           svg_text(x, 250, fmt::format("I(v0) = {:.4g}", visual_importance(mesh, 0)), "middle");
     x += 246;
   }
   return svg + "</svg>";
@@ -153,9 +144,9 @@ std::string collapse_drawing() {
       svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\" fill=\"{}\" class=\"axis\"/>", p.x, p.y, rgb(patch.mesh.colors[v]));
     }
   const Vec2d v0 = at(patch.v0, 30), v1 = at(patch.v1, 30), left = at(patch.v1, 530);
-  svg += text(v0.x - 10, v0.y - 12, "v0", "end") + text(v1.x + 10, v1.y - 12, "v1") + text(left.x + 10, left.y - 12, "v1");
-  svg += text(250, 318, "before: the faces of v0", "middle", "faint") +
-         text(750, 318, "after v0 → v1: those that are left of them", "middle", "faint");
+  svg += svg_text(v0.x - 10, v0.y - 12, "v0", "end") + svg_text(v1.x + 10, v1.y - 12, "v1") + svg_text(left.x + 10, left.y - 12, "v1");
+  svg += svg_text(250, 318, "before: the faces of v0", "middle", "faint") +
+         svg_text(750, 318, "after v0 → v1: those that are left of them", "middle", "faint");
   return svg + "</svg>";
 }
 
@@ -186,18 +177,18 @@ std::string sweep_drawing(const std::vector<KimSubjectResult>& subjects) {
     const double top = kPanel * static_cast<double>(s) + kTop, count = static_cast<double>(subject.sweep.size() - 1);
     const auto x_of = [&](std::size_t i) { return kLeft + (kWidth - kLeft - kRight) * static_cast<double>(i) / count; };
     const auto y_of = [&](double ratio) { return top + kHigh * (1 - std::min(ratio, limit) / limit); };
-    svg += text(kLeft, top - 14, subject.name + ": kim / qem6 (half-edge)");
+    svg += svg_text(kLeft, top - 14, subject.name + ": kim / qem6 (half-edge)");
     const double step = limit > 4 ? 1 : 0.5;
     for (double level = 0; level <= limit; level += step)
       svg += fmt::format("<line x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\" class=\"{}\"/>", kLeft, kWidth - kRight, y_of(level),
                          y_of(level), std::fabs(level - 1) < 1e-9 ? "axis" : "grid") +
-             text(kLeft - 8, y_of(level) + 4, fmt::format("{:.1f}", level), "end", "faint");
+             svg_text(kLeft - 8, y_of(level) + 4, fmt::format("{:.1f}", level), "end", "faint");
     const std::size_t middle = subject.sweep.size() / 2;
     for (std::size_t i = 0; i < subject.sweep.size(); i += 2) {
       const int decade = (static_cast<int>(i) - static_cast<int>(middle)) / 2;
       static constexpr const char* kPowers[] = {"10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "D/8000", "10¹", "10²", "10³", "10⁴"};
       const std::string name = (decade == 0 ? "" : "×") + std::string(kPowers[decade + 4]);
-      svg += text(x_of(i), top + kHigh + 20, name, "middle", "faint");
+      svg += svg_text(x_of(i), top + kHigh + 20, name, "middle", "faint");
     }
     svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\" class=\"axis\" stroke-dasharray=\"4 4\"/>",
                        x_of(middle), top, top + kHigh);
@@ -210,10 +201,11 @@ std::string sweep_drawing(const std::vector<KimSubjectResult>& subjects) {
       svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2.2\"/>", path, curve.color);
       svg += fmt::format("<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"3\"/>", legend,
                          legend + 22, top - 18, top - 18, curve.color) +
-             text(legend + 28, top - 14, curve.name);
+             svg_text(legend + 28, top - 14, curve.name);
       legend += 115;
     }
-    svg += text((kLeft + kWidth - kRight) / 2.0, top + kHigh + 42, "unit of length (D: diagonal of the bounding box)", "middle", "faint");
+    svg +=
+        svg_text((kLeft + kWidth - kRight) / 2.0, top + kHigh + 42, "unit of length (D: diagonal of the bounding box)", "middle", "faint");
   }
   return svg + "</svg>";
 }
@@ -243,17 +235,18 @@ std::string ratio_drawing(const std::vector<KimSubjectResult>& subjects) {
   for (double level = 0; level <= limit + 1e-9; level += limit > 5 ? 1 : 0.5)
     svg += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"24\" y2=\"{1}\" class=\"{2}\"/>", x_of(level), bottom,
                        std::fabs(level - 1) < 1e-9 ? "axis" : "grid") +
-           text(x_of(level), bottom + 18, fmt::format("{:.1f}", level), "middle", "faint");
-  svg += fmt::format("<circle cx=\"{}\" cy=\"10\" r=\"6\" fill=\"#0072b2\"/>", kLeft + 6) + text(kLeft + 18, 15, "against half-edge qem6") +
+           svg_text(x_of(level), bottom + 18, fmt::format("{:.1f}", level), "middle", "faint");
+  svg += fmt::format("<circle cx=\"{}\" cy=\"10\" r=\"6\" fill=\"#0072b2\"/>", kLeft + 6) +
+         svg_text(kLeft + 18, 15, "against half-edge qem6") +
          fmt::format("<circle cx=\"{}\" cy=\"10\" r=\"6\" fill=\"none\" stroke=\"#e69f00\" stroke-width=\"2.5\"/>", kLeft + 206) +
-         text(kLeft + 218, 15, "against full-edge qem6") +
-         fmt::format("<path d=\"M{0} 3l7 7l-7 7l-7 -7z\" fill=\"#cc79a7\"/>", kLeft + 407) + text(kLeft + 420, 15, "the paper's");
+         svg_text(kLeft + 218, 15, "against full-edge qem6") +
+         fmt::format("<path d=\"M{0} 3l7 7l-7 7l-7 -7z\" fill=\"#cc79a7\"/>", kLeft + 407) + svg_text(kLeft + 420, 15, "the paper's");
   double y = 24;
   for (const Quantity& q : kQuantities) {
     y += kRow;
-    svg += text(10, y + 5, q.name);
+    svg += svg_text(10, y + 5, q.name);
     for (const KimSubjectResult& s : subjects) {
-      svg += text(kLeft - 14, y + 5, s.name, "end", "faint");
+      svg += svg_text(kLeft - 14, y + 5, s.name, "end", "faint");
       const double kim = q.ours(s.of(KimMethod::kim)), half = q.ours(s.of(KimMethod::qem6)), full = q.ours(s.of(KimMethod::qem6_full));
       svg += fmt::format("<line x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\" class=\"grid\"/>", kLeft, kWidth - kRight, y, y);
       if (half > 0) svg += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\" fill=\"#0072b2\"/>", x_of(kim / half), y);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -69,7 +70,8 @@ TEST_CASE("the page escapes, stands alone, and the folder holds every file") {
   const test::ScratchFolder folder;
   const std::filesystem::path written = write_study(folder.path() / "deep" / "study", sample(), {}, "etalon study sample");
   CHECK(written.filename() == "index.html");
-  CHECK(study_files(sample()) == std::vector<std::string>{"p.png", "sizes.csv", "times.csv", "study.md", "study.json", "index.html"});
+  CHECK(study_files(sample()) ==
+        std::vector<std::string>{"p.png", "one.svg", "sizes.csv", "times.csv", "study.md", "study.json", "index.html"});
   for (const std::string& file : study_files(sample())) {
     CAPTURE(file);
     CHECK(!text_of(written.parent_path() / file).empty());
@@ -89,6 +91,22 @@ TEST_CASE("the page of documentation: what was typed, when and where, claims, ta
   run.threads = 1;
   CHECK(measured_on(run).find(", 1 thread") != std::string::npos);
   CHECK(measured_on(run).size() > std::string("2026-11-22, x, 1 thread").size());
+}
+
+TEST_CASE("a figure's drawing is a file of its own, and the page of documentation shows it with the pictures") {
+  StudyReport report = sample();
+  report.figures[0].svg = "<svg viewBox=\"0 0 1 1\"><text class=\"faint\">x</text></svg>";
+  const std::string drawing = report.figures[0].id + ".svg";
+  const std::vector<std::string> files = study_files(report);
+  CHECK(std::count(files.begin(), files.end(), drawing) == 1);
+  const test::ScratchFolder folder;
+  (void)write_study(folder.path(), report, {}, "");
+  const std::string svg = text_of(folder.path() / drawing);
+  CHECK(svg.find("<svg viewBox=\"0 0 1 1\"><style>") == 0);
+  CHECK(svg.find("class=\"faint\">x</text></svg>\n") != std::string::npos);
+  const std::string text = study_markdown(report, {}, "", "");
+  CHECK(text.find("](" + drawing + ")") != std::string::npos);
+  CHECK(text.find("](p.png)") != std::string::npos);
 }
 
 TEST_CASE("a study that cannot be written is a WriteError") {
