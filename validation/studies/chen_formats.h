@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/adapt/adapt_sequence.h"
+#include "core/adapt/chart_borders.h"
 #include "core/draw/renderer.h"
 #include "core/mesh/mesh.h"
 
@@ -14,12 +15,13 @@ struct ChenFormat {
   ChannelType type = ChannelType::float32;
   std::shared_ptr<const Image> map;         ///< of the level, adapted in this format
   std::size_t unnamed = 0;                  ///< texels that its identity map does not name
-  double median = 0, p99 = 0, largest = 0;  ///< texels from where the exact chain leads, over all texels
+  double median = 0, p99 = 0, largest = 0;  ///< texels from where the exact chain leads, over the charts
 };
 
-/// The indexing map adapted from the finest level to `level` in float32, half, unorm16 and unorm8. `analytic`: of that level and size.
-[[nodiscard]] std::vector<ChenFormat> adapt_in_formats(Renderer& renderer, const adapt::AdaptSequence& sequence, std::size_t level,
-                                                       const Image& analytic);
+/// The indexing map adapted from the finest level to `level`, with its gutter, in float32, half, unorm16 and unorm8. `analytic`: of that
+/// level and size.
+[[nodiscard]] std::vector<ChenFormat> adapt_in_formats(Renderer& renderer, const adapt::AdaptSequence& sequence,
+                                                       const adapt::ChartBorders& borders, std::size_t level, const Image& analytic);
 
 /// The edges of the faces over the texture, RGB unorm8, size × size.
 [[nodiscard]] Image parameterization_picture(Renderer& renderer, const Mesh& mesh, const std::shared_ptr<const Image>& texture, int size);

@@ -36,13 +36,14 @@ ChenLevels make_chen_levels(Renderer& renderer, const Mesh& mesh, const std::vec
   step("collapses and cells");
   progressive::ProgressiveMesh made(progressive::make_progressive(mesh, how(simplify::MetricName::qem5, levels.back())).data);
   adapt::AdaptSequence sequence(made);
-  const adapt::ChartBorders borders(made);
-  ChenLevels result{std::move(made), std::move(sequence), {}};
+  adapt::ChartBorders borders(made);
+  ChenLevels result{std::move(made), std::move(sequence), std::move(borders), {}};
   Image map = adapt::identity_map(map_size, map_size);
-  adapt::Gutter map_gutter(borders, map_size, map_size);
+  adapt::Gutter map_gutter(result.borders, map_size, map_size);
   std::vector<Image> adapted;
   std::vector<adapt::Gutter> gutters;
-  for (const Image* texture : textures) adapted.push_back(*texture), gutters.emplace_back(borders, texture->width(), texture->height());
+  for (const Image* texture : textures)
+    adapted.push_back(*texture), gutters.emplace_back(result.borders, texture->width(), texture->height());
   const TriangleTree tree(mesh);
   std::size_t from = result.sequence.size();
   for (const std::size_t faces : levels) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/adapt/adapt_sequence.h"
+#include "core/adapt/chart_borders.h"
 #include "core/draw/renderer.h"
 #include "core/progressive/progressive_mesh.h"
 
@@ -22,6 +23,7 @@ struct ChenLevel {
 struct ChenLevels {
   progressive::ProgressiveMesh mesh;
   adapt::AdaptSequence sequence;
+  adapt::ChartBorders borders;
   std::vector<ChenLevel> levels;
 };
 

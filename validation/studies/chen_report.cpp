@@ -155,7 +155,7 @@ StudyTable format_table(const ChenSubjectResult& s) {
       .title = "Figure 10: formats of the map",
       .note = fmt::format("{}, {}, {} faces. Unnamed: texels of the texture that the identity map of this format does not give back. "
                           "Errors: how far the map's "
-                          "texels point from where the exact chain of cells leads, in texels, over the whole map. dB as above.",
+                          "texels point from where the exact chain of cells leads, in texels, over all texels in charts. dB as above.",
                           s.name, s.textures[s.formats_texture], grouped(s.levels.back())),
       .columns = {"format", "unnamed texels", "median", "99 %", "largest", "PSNR"},
       .rows = {}};

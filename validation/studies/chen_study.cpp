@@ -82,7 +82,7 @@ void compare_formats(const ChenSubject& subject, const ChenLevels& levels, const
   const ChenLevel& coarsest = levels.levels.back();
   const BoundingBox box = bounding_box(subject.mesh);
   std::vector<PictureSums> sums;
-  for (ChenFormat& format : adapt_in_formats(exact, levels.sequence, coarsest.level, *coarsest.analytic))
+  for (ChenFormat& format : adapt_in_formats(exact, levels.sequence, levels.borders, coarsest.level, *coarsest.analytic))
     result.formats.push_back({std::move(format), {}, {}}), sums.emplace_back();
   for (int i = 0; i < options.view_count; ++i) {
     const Camera camera = view_of_24(box, i);
