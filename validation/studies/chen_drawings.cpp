@@ -18,6 +18,36 @@ constexpr const char* kHues[] = {"#0072b2", "#e69f00", "#009e73", "#cc79a7", "#5
 
 double cross(const Vec2d& a, const Vec2d& b) { return a.x * b.y - a.y * b.x; }
 
+/// From p to the line a–b.
+double line_distance(const Vec2d& p, const Vec2d& a, const Vec2d& b) {
+  const Vec2d d = b - a;
+  const double length2 = d.x * d.x + d.y * d.y;
+  return length2 > 0 ? std::abs(cross(d, p - a)) / std::sqrt(length2) : 0;
+}
+
+/// Of the corners first..last of the ring, the one whose line from `from` comes nearest to p.
+std::size_t nearest_line(const ChenCollapse& collapse, const Vec2d& from, std::size_t first, std::size_t last, const Vec2d& p) {
+  std::size_t best = first;
+  for (std::size_t k = first; k <= last; ++k)
+    if (line_distance(p, from, Vec2d(collapse.cells.nodes[k].before)) < line_distance(p, from, Vec2d(collapse.cells.nodes[best].before)))
+      best = k;
+  return best;
+}
+
+/// The collapse with every crossing where its edges cross on the texture plane, u being at its new place: the overlay itself.
+ChenCollapse as_overlay(const ChenCollapse& collapse) {
+  ChenCollapse overlay = collapse;
+  auto& nodes = overlay.cells.nodes;
+  const Vec2d u(nodes[0].after), v(nodes[1].after), u_before(nodes[0].before);
+  for (std::size_t n = 1 + collapse.ring; n < nodes.size(); ++n) {
+    const Vec2d spoke = Vec2d(nodes[nearest_line(collapse, u_before, 2, collapse.ring, Vec2d(nodes[n].before))].before) - u;
+    const Vec2d diagonal = Vec2d(nodes[nearest_line(collapse, v, 3, collapse.ring - 1, Vec2d(nodes[n].after))].after) - v;
+    const double area = cross(spoke, diagonal);
+    if (area != 0) nodes[n].after = Vec2f(u + spoke * (cross(v - u, diagonal) / area));
+  }
+  return overlay;
+}
+
 /// Ring coordinates into a square panel.
 class Panel {
  public:
@@ -107,6 +137,10 @@ double showing(const ChenCollapse& collapse) {
       const Vec2d d = Vec2d(nodes[k].before) - Vec2d(nodes[l].before);
       longest2 = std::max(longest2, d.x * d.x + d.y * d.y);
     }
+  const double longest = std::sqrt(longest2);
+  double off_diagonals = longest;  // u in the middle of a triangle: the general case
+  for (std::size_t k = 3; k < collapse.ring; ++k)
+    off_diagonals = std::min(off_diagonals, line_distance(Vec2d(nodes[0].after), Vec2d(nodes[1].after), Vec2d(nodes[k].after)));
   for (const auto& cell : collapse.cells.cells)
     for (const bool after : {false, true}) {
       const auto p = [&](std::size_t k) { return Vec2d(after ? nodes[cell[k]].after : nodes[cell[k]].before); };
@@ -118,9 +152,9 @@ double showing(const ChenCollapse& collapse) {
     const Vec2d d = Vec2d(nodes[n].after) - Vec2d(nodes[n].before);
     moved2 = std::min(moved2, d.x * d.x + d.y * d.y);
   }
-  return longest2 > 0 && area > 0
-             ? least * std::sqrt(smallest / area) * std::min(std::sqrt(moved2 / longest2), 0.06) * std::min(1.0, 2 * area / longest2)
-             : 0;
+  if (!(longest > 0) || !(area > 0)) return 0;
+  return least * std::sqrt(smallest / area) * std::min(std::sqrt(moved2) / longest, 0.06) * std::min(off_diagonals / longest, 0.08) *
+         std::min(1.0, 2 * area / longest2);
 }
 
 std::vector<Vec3d> positions_of(const progressive::ProgressiveMesh& mesh, const ChenCollapse& collapse) {
@@ -239,7 +273,8 @@ std::string neighbourhood_drawing(const ChenCollapse& collapse) {
   return svg + "</svg>";
 }
 
-std::string overlay_drawing(const ChenCollapse& collapse) {
+std::string overlay_drawing(const ChenCollapse& made) {
+  const ChenCollapse collapse = as_overlay(made);
   std::string svg = svg_open(1000, 400, "the edges before and after over each other, and the cells they make");
   const Panel left(collapse, 90, 30, 320), right(collapse, 590, 30, 320);
   svg += ring_lines(collapse, left, true, true, true) + named_dots(collapse, left, true, "");
@@ -332,8 +367,8 @@ std::string blur_drawing() {
     svg += svg_text(kLeft - 14, y + 25, name, "end");
     for (int i = 0; i < count; ++i) {
       const int grey = value(i);
-      svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\" fill=\"rgb({},{},{})\" class=\"axis\"/>",
-                         kLeft + i * width, y, width, kCell, grey, grey, grey);
+      svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{}\" fill=\"rgb({},{},{})\" {}/>", kLeft + i * width, y,
+                         width, kCell, grey, grey, grey, width > kCell ? "class=\"axis\"" : "");
     }
   };
   row(10, "T", kTexels, 2 * kCell, [&](int i) { return kRow[i]; });
