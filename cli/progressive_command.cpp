@@ -111,6 +111,8 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   document["metric"] = options.metric;
   document["collapse"] = options.collapse;
   document["records"] = made.data.splits.size();
+  document["records_in_whole"] = made.data.splits.size();
+  document["complete"] = true;
   document["faces_base"] = made.data.base_faces;
   document["faces"] = made.data.faces.size();
   add_cell_members(cells, document);
@@ -154,6 +156,8 @@ int take_level(const Options& options, Console& console, CallFiles& files) {
   document["metric"] = nullptr;
   document["collapse"] = nullptr;
   document["records"] = content.mesh.split_count();
+  document["records_in_whole"] = content.splits_in_whole;
+  document["complete"] = content.complete;
   document["faces_base"] = content.mesh.face_count_at(0);
   document["faces"] = mesh.face_count();
   add_cell_members(std::nullopt, document);

@@ -30,9 +30,9 @@ using simplify::SimplifyResult;
 using validation::grouped;
 
 struct Options {
-  std::string model, output, metric = "qem", collapse = "half", tolerance;
+  std::string model, output, metric = "qem", collapse = "half", tolerance, unit;
   std::optional<std::int64_t> faces;
-  std::optional<double> ratio, unit, weight;
+  std::optional<double> ratio, weight;
   double min_cosine = simplify::LegalityOptions{}.min_normal_cosine;
   bool refuse_non_manifold = false;
   CommonOptions common;
@@ -44,10 +44,11 @@ struct Job {
   std::size_t vertices_read = 0;
   std::size_t target_faces = 0;
   std::optional<double> tolerance;  // model units
+  double unit = 0;                  // model units; 0: the default
 };
 
 // "0.01", or "0.5%" of the diagonal.
-double length_of(const std::string& text, double diagonal) {
+double length_of(const std::string& option, const std::string& text, double diagonal) {
   std::size_t read = 0;
   double length = -1;
   try {
@@ -57,8 +58,25 @@ double length_of(const std::string& text, double diagonal) {
   }
   const bool percent = read + 1 == text.size() && text.back() == '%';
   if (read == 0 || (read != text.size() && !percent) || !(length >= 0) || std::isinf(length))
-    throw UsageError(fmt::format("simplify: --tolerance: expected a length of at least 0, as 0.01 or 0.5% of the diagonal, got {}", text));
+    throw UsageError(fmt::format("simplify: {}: expected a length of at least 0, as 0.01 or 0.5% of the diagonal, got {}", option, text));
   return percent ? length / 100 * diagonal : length;
+}
+
+double unit_of(const std::string& text, double diagonal) {
+  const double unit = length_of("--unit", text, diagonal);
+  if (!(unit >= 1e-12 && unit <= 1e12))
+    throw UsageError(fmt::format("simplify: --unit: expected a length from 1e-12 to 1e12 model units, got {}", text));
+  return unit;
+}
+
+// What SimplifyResult::error is, by metric (simplify.h).
+std::string error_text(const std::string& metric, const SimplifyResult& result, double diagonal) {
+  const std::string of_diagonal = diagonal > 0 ? fmt::format(" ({:.4g} % of the diagonal)", 100 * result.error / diagonal) : "";
+  if (metric == "aps") return fmt::format("texture moved by at most {:.6g}{}", result.error, of_diagonal);
+  if (metric == "qem5") return fmt::format("RMS error in space and texture together {:.6g}{}", result.error, of_diagonal);
+  if (metric == "qem6" || metric == "hoppe")
+    return fmt::format("RMS error in space and colour together {:.6g}{}", result.error, of_diagonal);
+  return fmt::format("RMS distance to planes {:.6g}{}", result.error, of_diagonal);
 }
 
 Job read_job(const Options& options, CallFiles& files) {
@@ -72,12 +90,14 @@ Job read_job(const Options& options, CallFiles& files) {
                .role = "model",
                .attribution = ""};
   job.input.attribution = attribution_of(job.input.sha256);
+  if (job.input.attribution.empty()) job.input.attribution = job.model.credit;
   job.vertices_read = job.model.mesh.vertex_count();
   job.model.mesh = welded_by_position(job.model.mesh);
   const std::size_t faces = job.model.mesh.face_count();
   if (options.faces) job.target_faces = static_cast<std::size_t>(*options.faces);
   if (options.ratio) job.target_faces = simplify::faces_for_ratio(faces, *options.ratio);
-  if (!options.tolerance.empty()) job.tolerance = length_of(options.tolerance, bounding_box(job.model.mesh).diagonal());
+  if (!options.tolerance.empty()) job.tolerance = length_of("--tolerance", options.tolerance, bounding_box(job.model.mesh).diagonal());
+  if (!options.unit.empty()) job.unit = unit_of(options.unit, bounding_box(job.model.mesh).diagonal());
   return job;
 }
 
@@ -145,7 +165,7 @@ std::string refusals_line(const SimplifyResult& result) {
 int run(const Options& options) {
   apply(options.common);
   if (options.output == "-") throw UsageError("simplify: a model may be several files: expected -o FILE.obj, .ply or .glb");
-  if (options.unit && options.metric != "kim") throw UsageError("simplify: --unit is of --metric kim");
+  if (!options.unit.empty() && options.metric != "kim") throw UsageError("simplify: --unit is of --metric kim");
   const bool has_attributes = options.metric == "qem5" || options.metric == "qem6" || options.metric == "hoppe";
   if (options.weight && !has_attributes) throw UsageError("simplify: --weight is of --metric qem5, qem6 and hoppe");
   if ((options.metric == "kim" || options.metric == "aps") && options.collapse == "full")
@@ -153,7 +173,8 @@ int run(const Options& options) {
   if (options.faces && options.ratio) throw UsageError("simplify: expected one of --faces and --ratio, got both");
   if (!options.faces && !options.ratio && options.tolerance.empty())
     throw UsageError("simplify: expected one of --faces, --ratio and --tolerance");
-  if (!options.tolerance.empty()) (void)length_of(options.tolerance, 1);
+  if (!options.tolerance.empty()) (void)length_of("--tolerance", options.tolerance, 1);
+  if (!options.unit.empty()) (void)unit_of(options.unit, 1);
   require_writable_file(options.output);
   require_writable_file(options.common.json);
   Console console(console_options(options.common));
@@ -170,7 +191,7 @@ int run(const Options& options) {
     how.tolerance = job.tolerance;
     how.metric = simplify::metric_named(options.metric);
     how.attribute_weight = options.weight.value_or(how.attribute_weight);
-    how.kim.unit = options.unit.value_or(0);
+    how.kim.unit = job.unit;
     how.record_landings = true;
     how.refuse_non_manifold = options.refuse_non_manifold;
     how.legality.min_normal_cosine = options.min_cosine;
@@ -181,14 +202,13 @@ int run(const Options& options) {
   });
   {
     const FinishWriting finish;
-    io::write_mesh(options.output, result.mesh, job.model.materials);
+    io::write_mesh(options.output, result.mesh, job.model.materials, job.input.attribution);
   }
   print_notes(console, job, result);
   const double diagonal = bounding_box(job.model.mesh).diagonal();
-  console.line(fmt::format("{}: {} of {} faces, {} of {} vertices; error {:.6g}{}", options.output, grouped(result.mesh.face_count()),
+  console.line(fmt::format("{}: {} of {} faces, {} of {} vertices; {}", options.output, grouped(result.mesh.face_count()),
                            grouped(job.model.mesh.face_count()), grouped(result.mesh.vertex_count()),
-                           grouped(job.model.mesh.vertex_count()), result.error,
-                           diagonal > 0 ? fmt::format(" ({:.4g} % of the diagonal)", 100 * result.error / diagonal) : ""));
+                           grouped(job.model.mesh.vertex_count()), error_text(options.metric, result, diagonal)));
   if (result.distance_audited)
     console.line(fmt::format("no vertex of the model is farther than {:.6g} from the result (audited; asked for {:.6g})",
                              *result.distance_audited, *job.tolerance));
@@ -242,10 +262,11 @@ Verb add_simplify(CLI::App& root) {
                   "1000 (default 1)")
       ->type_name("W")
       ->check(number_between(1e-6, 1000));
-  app->add_option("--unit", options->unit,
-                  "For kim: the length in model units that counts as 1, 1e-12 to 1e12 (default: the diagonal / 8000)")
+  app->add_option(
+         "--unit", options->unit,
+         "For kim: the length that counts as 1: model units, 1e-12 to 1e12, or 0.1% of the diagonal (default: the diagonal / 8000)")
       ->type_name("L")
-      ->check(number_between(1e-12, 1e12));
+      ->check(not_empty());
   app->add_option("--min-cosine", options->min_cosine,
                   "Least cosine between a triangle's normals before and after a collapse, 0 to 1 (default 0.2)")
       ->type_name("C")

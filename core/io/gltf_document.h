@@ -28,6 +28,7 @@ class JsonRef {
   [[nodiscard]] double real() const;
   [[nodiscard]] std::string text() const;
   [[nodiscard]] std::string text_or(const char* key, const char* fallback) const { return has(key) ? at(key).text() : fallback; }
+  [[nodiscard]] bool is_text() const { return value_->is_string(); }
   [[nodiscard]] bool true_at(const char* key) const;
   [[nodiscard]] const std::string& path() const { return path_; }
   [[noreturn]] void fail(const std::string& what) const;

@@ -28,6 +28,8 @@ class GltfReader {
 
   LoadedModel read() {
     check_extensions();
+    if (const JsonRef asset = document_.root().at("asset"); asset.has("copyright") && asset.at("copyright").is_text())
+      model_.credit = one_line(asset.at("copyright").text());
     walk_scene();
     if (soup_.faces.empty())
       fail_file(document_.file(), "no faces: expected at least one mesh with triangles in the default scene, got none");

@@ -18,11 +18,12 @@ using Json = nlohmann::ordered_json;
 
 class GlbWriter {
  public:
-  GlbWriter(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials)
-      : path_(path), mesh_(mesh), materials_(materials) {}
+  GlbWriter(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials, const std::string& credit)
+      : path_(path), mesh_(mesh), materials_(materials), credit_(credit) {}
 
   std::string bytes() {
     json_["asset"] = {{"version", "2.0"}, {"generator", "etalon"}};
+    if (!credit_.empty()) json_["asset"]["copyright"] = credit_;
     json_["scene"] = 0;
     json_["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
     json_["nodes"] = Json::array({{{"mesh", 0}}});
@@ -182,6 +183,7 @@ class GlbWriter {
   const fs::path& path_;
   const Mesh& mesh_;
   const std::vector<Material>& materials_;
+  const std::string& credit_;
   Json json_;
   Json attributes_;
   std::string binary_;
@@ -192,8 +194,8 @@ class GlbWriter {
 
 }  // namespace
 
-void write_glb(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials) {
-  write_file(path, GlbWriter(path, mesh, materials).bytes());
+void write_glb(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials, const std::string& credit) {
+  write_file(path, GlbWriter(path, mesh, materials, credit).bytes());
 }
 
 }  // namespace etalon::io

@@ -106,15 +106,23 @@ void flip_v(Mesh& mesh) {
   for (Wedge& w : mesh.wedges) w.uv.y = 1.0f - w.uv.y;
 }
 
-void write_mesh(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials) {
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, ' ');
+  // A '\' at the end would join the next line.
+  if (!text.empty() && text.back() == '\\') text += ' ';
+  return text;
+}
+
+void write_mesh(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials, const std::string& credit) {
   const std::string extension = lower_extension(path);
   if (extension != ".obj" && extension != ".ply" && extension != ".glb")
     throw WriteError(
         fmt::format("{}: cannot write: mesh format: expected .obj, .ply or .glb, got '{}'", path.string(), printable(extension)));
   check_mesh(path, mesh, materials);
-  if (extension == ".obj") return write_obj(path, mesh, materials);
-  if (extension == ".ply") return write_ply(path, mesh, materials);
-  write_glb(path, mesh, materials);
+  if (extension == ".obj") return write_obj(path, mesh, materials, one_line(credit));
+  if (extension == ".ply") return write_ply(path, mesh, materials, one_line(credit));
+  write_glb(path, mesh, materials, one_line(credit));
 }
 
 std::vector<fs::path> mesh_output_files(const fs::path& path, const std::vector<Material>& materials) {

@@ -22,6 +22,7 @@ struct LoadedModel {
   Mesh mesh;
   std::vector<Material> materials;                ///< those that faces use, in order of first use; empty where the file names none
   std::vector<std::string> notes;                 ///< one line each: what was skipped or missing, and where
+  std::string credit;                             ///< who must be named, on one line: asset.copyright of glTF
   std::vector<std::filesystem::path> side_files;  ///< what was read beside `path`, textures apart: material libraries, glTF buffers
 };
 
@@ -59,7 +60,9 @@ void flip_v(Mesh& mesh);
 /// textures of materials, not their names.
 /// WriteError where a file cannot be written, its extension is none of these, or the format cannot hold the mesh (no faces, numbers that
 /// are not finite, indices or list sizes that do not fit each other).
-void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials = {});
+/// `credit`: who must be named, as asset.copyright (GLB) or a comment; control characters become blanks.
+void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials = {},
+                const std::string& credit = {});
 
 /// The files that write_mesh would write, the model itself first; nothing is written or checked here.
 [[nodiscard]] std::vector<std::filesystem::path> mesh_output_files(const std::filesystem::path& path,

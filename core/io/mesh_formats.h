@@ -17,9 +17,13 @@ namespace etalon::io {
 [[nodiscard]] LoadedModel read_ply(const std::filesystem::path& path, const FileBytes& content);
 [[nodiscard]] LoadedModel read_gltf(const std::filesystem::path& path, const FileBytes& content);
 
-void write_obj(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials);
-void write_ply(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials);
-void write_glb(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials);
+/// `credit`: one line, or empty.
+void write_obj(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials, const std::string& credit);
+void write_ply(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials, const std::string& credit);
+void write_glb(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials, const std::string& credit);
+
+/// Control characters become blanks.
+[[nodiscard]] std::string one_line(std::string text);
 
 /// The colour textures (map_Kd) of a material library, by material name; an empty path for a material without. Unknown statements are skipped.
 [[nodiscard]] std::map<std::string, std::filesystem::path> read_mtl(const std::filesystem::path& path);

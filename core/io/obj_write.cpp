@@ -30,9 +30,10 @@ std::vector<std::string> material_names(const std::vector<Material>& materials) 
   return result;
 }
 
-std::string obj_text(const Mesh& mesh, const std::vector<std::string>& names, const std::string& mtl_name) {
+std::string obj_text(const Mesh& mesh, const std::vector<std::string>& names, const std::string& mtl_name, const std::string& credit) {
   fmt::memory_buffer out;
   const auto end = std::back_inserter(out);
+  if (!credit.empty()) fmt::format_to(end, "# credit: {}\n", credit);
   if (!names.empty()) fmt::format_to(end, "mtllib {}\n", mtl_name);
   const bool has_alpha = std::any_of(mesh.colors.begin(), mesh.colors.end(), [](const Vec4f& c) { return c.w != 1; });
   // "{}" is the shortest decimal number that reads back as the same float.
@@ -68,7 +69,7 @@ std::string obj_text(const Mesh& mesh, const std::vector<std::string>& names, co
 
 }  // namespace
 
-void write_obj(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials) {
+void write_obj(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials, const std::string& credit) {
   const std::vector<std::string> names = material_names(materials);
   const std::vector<TextureFile> textures = texture_files(path, materials);
   const fs::path mtl_path = fs::path(path).replace_extension(".mtl");
@@ -80,7 +81,7 @@ void write_obj(const fs::path& path, const Mesh& mesh, const std::vector<Materia
     if (!textures[i].content.empty()) files.emplace_back(path.parent_path() / textures[i].name, textures[i].content);
   }
   if (!materials.empty()) files.emplace_back(mtl_path, mtl);
-  files.emplace_back(path, obj_text(mesh, names, mtl_path.filename().string()));
+  files.emplace_back(path, obj_text(mesh, names, mtl_path.filename().string(), credit));
   write_files(files);
 }
 

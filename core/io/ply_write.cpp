@@ -33,7 +33,7 @@ bool colors_are_bytes(const Mesh& mesh) {
 
 std::uint8_t color_byte(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f); }
 
-void write_ply(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials) {
+void write_ply(const fs::path& path, const Mesh& mesh, const std::vector<Material>& materials, const std::string& credit) {
   static_assert(std::endian::native == std::endian::little);
   const bool has_color = !mesh.colors.empty();
   const bool has_alpha = std::any_of(mesh.colors.begin(), mesh.colors.end(), [](const Vec4f& c) { return c.w != 1; });
@@ -43,6 +43,7 @@ void write_ply(const fs::path& path, const Mesh& mesh, const std::vector<Materia
   std::vector<std::pair<fs::path, std::string>> files;
 
   std::string out = "ply\nformat binary_little_endian 1.0\n";
+  if (!credit.empty()) out += fmt::format("comment credit: {}\n", credit);
   std::int32_t texture_count = 0;
   for (const TextureFile& t : textures) {
     texture_numbers.push_back(t.name.empty() ? -1 : texture_count++);

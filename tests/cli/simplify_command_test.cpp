@@ -106,6 +106,8 @@ TEST_CASE("simplify: --metric kim on vertex colours") {
   check_refused({"simplify", "square.obj", "--faces", "1", "--weight", "1", "-o", "a.ply"}, 64, folder, "--weight is of");
   check_refused({"simplify", "square.obj", "--faces", "1", "--unit", "1", "-o", "a.ply"}, 64, folder, "--unit is of --metric kim");
   check_refused({"simplify", "square.obj", "--faces", "1", "--metric", "kim", "--unit", "0", "-o", "a.ply"}, 64, folder, "unit");
+  check_refused({"simplify", "square.obj", "--faces", "1", "--metric", "kim", "--unit", "1 mm", "-o", "a.ply"}, 64, folder,
+                "--unit: expected a length of at least 0, as 0.01 or 0.5% of the diagonal, got 1 mm");
 }
 
 TEST_CASE("simplify: --collapse full and --tolerance") {
@@ -207,6 +209,13 @@ TEST_CASE("progressive: a level of the file is the simplified model; a cut file 
   const CommandResult cut = run_etalon({"progressive", "cut.epm", "--faces", "9999", "-o", "cut.ply"}, {.folder = folder.path()});
   CHECK(cut.exit_code == 0);
   CHECK(cut.out.find("is cut short") != std::string::npos);
+  folder.file("half.epm", whole.substr(0, whole.size() / 2));
+  const json cut_document = checked_document(
+      run_etalon({"progressive", "half.epm", "--faces", "9999", "-o", "cut.ply", "--json", "-"}, {.folder = folder.path()}),
+      "progressive.json");
+  CHECK(cut_document["complete"] == false);
+  CHECK(cut_document["records"].get<std::size_t>() < cut_document["records_in_whole"].get<std::size_t>());
+  CHECK(without["complete"] == true);
   folder.file("broken.epm", whole.substr(0, 30));
   check_refused({"progressive", "broken.epm", "--faces", "3", "-o", "b.ply"}, 4, folder,
                 "broken.epm: byte 8: the file ends inside its HEAD chunk");
@@ -299,14 +308,31 @@ TEST_CASE("simplify: numbers that are none or out of range are a usage error") {
                                                        {"--ratio", "0.5", "--min-cosine", "nan"},
                                                        {"--ratio", "0.5", "--metric", "qem6", "--weight", "nan"},
                                                        {"--ratio", "0.5", "--metric", "qem6", "--weight", "0"},
-                                                       {"--ratio", "0.5", "--metric", "qem6", "--weight", "1e5"},
-                                                       {"--ratio", "0.5", "--metric", "kim", "--unit", "nan"},
-                                                       {"--ratio", "0.5", "--metric", "kim", "--unit", "1e-300"}};
+                                                       {"--ratio", "0.5", "--metric", "qem6", "--weight", "1e5"}};
   for (const std::vector<std::string>& rest : wrong) {
     std::vector<std::string> arguments = head;
     arguments.insert(arguments.end(), rest.begin(), rest.end());
     check_refused(arguments, 64, folder, "expected a number from");
   }
+  for (const std::string unit : {"nan", "-1", "1e-300", "0%", "1e300%", "1%%"})
+    check_refused({"simplify", "knot.ply", "-o", "out.ply", "--ratio", "0.5", "--metric", "kim", "--unit", unit}, 64, folder,
+                  "--unit: expected a length");
+}
+
+TEST_CASE("simplify: --unit as a share of the diagonal; the error is named as what the metric measures") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "knot", "--faces", "2000", "-o", "knot.ply"}, {.folder = folder.path()}).exit_code == 0);
+  const auto simplified = [&](const std::string& metric, const std::string& unit) {
+    std::vector<std::string> arguments{"simplify", "knot.ply", "-o", "out.ply", "--ratio", "0.5", "--metric", metric};
+    if (!unit.empty()) arguments.insert(arguments.end(), {"--unit", unit});
+    return run_etalon(arguments, {.folder = folder.path()});
+  };
+  const CommandResult share = simplified("kim", "0.0125%"), plain = simplified("kim", "");  // the default: an 8000th
+  CHECK(share.exit_code == 0);
+  CHECK(share.out == plain.out);
+  CHECK(simplified("kim", "10%").out != plain.out);
+  CHECK(plain.out.find("; RMS distance to planes ") != std::string::npos);
+  CHECK(simplified("qem6", "").out.find("; RMS error in space and colour together ") != std::string::npos);
 }
 
 TEST_CASE("progressive: what was repaired, a target that is not reached, options that do not belong, a model without faces") {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstring>
 
+#include "core/io/inputs.h"
 #include "core/io/mesh_file.h"
 #include "tests/io/image_builder.h"
 #include "tests/io/scratch.h"
@@ -236,6 +237,25 @@ TEST_CASE("gltf: bad documents, each named by its place") {
         ": bufferViews[3]: expected to lie within the buffer's 108 bytes, got offset 99 and length 16");
   CHECK(error(with(kJson, R"({"byteLength":108})", R"({"byteLength":109})")) == ": buffers[0]: byteLength: expected at most 108, got 109");
   CHECK(error(with(kJson, R"("TEXCOORD_0":1)", R"("TEXCOORD_0":0)")) == ": accessors[0]: expected 2 to 2 components, got 3");
+}
+
+TEST_CASE("asset.copyright: read, and written into every format on one line") {
+  CHECK(read(kJson).credit.empty());
+  CHECK(read(with(kJson, R"("version":"2.0")", R"("version":"2.0","copyright":7)")).credit.empty());
+  const LoadedModel model = read(with(kJson, R"("version":"2.0")", R"("version":"2.0","copyright":"by A\nand B\\")"));
+  CHECK(model.credit == "by A and B\\ ");
+  const ScratchFolder folder;
+  const auto written = [&](const std::string& name) {
+    write_mesh(folder.path() / name, model.mesh, {}, model.credit);
+    const FileBytes bytes = read_file(folder.path() / name);
+    const LoadedModel back = read_mesh(folder.path() / name);
+    CHECK(back.mesh == model.mesh);
+    CHECK(back.materials.empty());
+    return std::pair(std::string(bytes.text()), back.credit);
+  };
+  CHECK(written("m.glb").second == model.credit);
+  CHECK(written("m.obj").first.starts_with("# credit: by A and B\\ \n"));
+  CHECK(written("m.ply").first.find("\ncomment credit: by A and B\\ \n") != std::string::npos);
 }
 
 TEST_CASE("gltf: bad numbers in buffers") {

@@ -11,11 +11,12 @@
 
 namespace etalon::validation {
 
-VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view) {
+VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view, const RasterState& state) {
   if (mesh.colors.empty()) throw InputError("expected a mesh with vertex colours, got one without");
   VertexColorScene scene;
   scene.frame.width = view.width;
   scene.frame.height = view.height;
+  scene.frame.state = state;
   scene.frame.targets = {{TargetContent::color, kRgba8, {0, 0, 0, 1}}, {TargetContent::triangle_id, kR32ui, {}}};
   std::uint32_t materials = 1;
   for (const std::uint32_t m : mesh.face_materials) materials = std::max(materials, m + 1);
@@ -74,8 +75,7 @@ ShownSquare shown_square(const DrawnView& view) {
 }
 
 DeviceView draw_on_device(Renderer& exact, Renderer& device, const DeviceModel& model, const Mesh& mesh, const VertexColorView& view) {
-  VertexColorScene scene = vertex_color_scene(mesh, view);
-  scene.frame.state = device.supported_state(scene.frame.state);
+  const VertexColorScene scene = vertex_color_scene(mesh, view, device.supported_state({}));
   const std::vector<Image> golden = exact.render(scene.list, scene.frame);
   std::vector<Image> candidate = device.render(scene.list, scene.frame);
   DeviceView result;

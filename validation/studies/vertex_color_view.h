@@ -22,7 +22,7 @@ struct VertexColorScene {
   DrawList list;
   Frame frame;
 };
-[[nodiscard]] VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view);
+[[nodiscard]] VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view, const RasterState& state = {});
 
 struct DrawnView {
   Image color;
@@ -50,7 +50,7 @@ struct ShownSquare {
 };
 [[nodiscard]] ShownSquare shown_square(const DrawnView& view);
 
-/// The same view on a device, and every texel that differs put in a class.
+/// The same view on a device, in a state that it supports (sub-texel bits), and every texel that differs put in a class.
 struct DeviceView {
   Image color;
   DiffResult diff;  ///< of colours and ids

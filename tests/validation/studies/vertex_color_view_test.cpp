@@ -108,6 +108,22 @@ TEST_CASE("the worst window is found, and the close-up looks there") {
   CHECK(row(1) / row(3) == doctest::Approx(0));
 }
 
+TEST_CASE("a device of fewer sub-texel bits gets positions of its own") {
+  struct Coarse : raster::CpuRenderer {
+    [[nodiscard]] RasterState supported_state(const RasterState& wanted) const override {
+      RasterState state = wanted;
+      state.subtexel_bits = 4;
+      return state;
+    }
+  } coarse;
+  raster::CpuRenderer exact;
+  const Mesh mesh = small_knot();
+  const VertexColorView view = view_of(mesh, 200);
+  const DeviceView drawn = draw_on_device(exact, coarse, DeviceModel{}, mesh, view);
+  CHECK(drawn.diff.counts[TexelClass::identical] == 200 * 200);
+  CHECK(rgb_rms(drawn.color, draw_vertex_colors(exact, mesh, view)) > 0);
+}
+
 #ifdef ETALON_HAVE_GPU
 TEST_CASE("the same picture on OpenGL: every texel that differs is explained") {
   gpu::GlRenderer* device = test::llvmpipe_or_skip("the same picture on OpenGL");
