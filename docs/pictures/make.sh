@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Makes docs/pictures/first-check.png, the README's picture: the exact rasterizer | OpenGL | the class of every texel, of `etalon verify` on the built-in head.
+# Makes the README's pictures. first-check.png: the exact rasterizer | OpenGL | the class of every texel, of `etalon verify` on the built-in head.
+# swirl.png: full mesh | simplified | the same with its texture adapted, of `etalon study chen`.
 # Usage: docs/pictures/make.sh [ETALON]   (default build/cli/etalon; needs oiiotool, which ./run installs, and OpenGL)
 set -eu
 cd -P -- "$(dirname -- "${BASH_SOURCE[0]}")/../.."
@@ -21,3 +22,7 @@ for kind in cpu gl classes; do
 done
 oiiotool "$work/cpu-guttered.png" "$work/gl-guttered.png" "$work/classes-guttered.png" --mosaic 3x1 --cut 1216x500+0+0 -d uint8 \
   -o docs/pictures/first-check.png
+
+"$etalon" study chen swirl --report "$work/swirl" --quiet
+oiiotool "$work/swirl/swirl-colour-original.png" "$work/swirl/swirl-colour-399-qem5.png" "$work/swirl/swirl-colour-399-map.png" --mosaic 3x1 \
+  --resize 1080x360 -d uint8 -o docs/pictures/swirl.png
