@@ -1,0 +1,105 @@
+#include "core/bake/bake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/bake/seams.h"
+#include "core/base/error.h"
+#include "core/mesh/weld.h"
+
+namespace etalon::bake {
+namespace {
+
+// The scan as a surface with colours and nothing else: texture seams and materials would keep vertices where they are.
+Mesh bare_scan(const Mesh& scan) {
+  Mesh bare = scan;
+  bare.has_uv = false;
+  bare.face_materials.clear();
+  return welded_by_position(bare);
+}
+
+void require_input(const Mesh& scan, const BakeOptions& options) {
+  if (scan.colors.empty()) throw InputError("expected vertex colours, got none: there is nothing to bake");
+  for (std::size_t v = 0; v < scan.colors.size(); ++v)
+    for (int c = 0; c < 3; ++c)
+      if (!std::isfinite(scan.colors[v][c]))
+        throw InputError(fmt::format("vertex {}: expected a finite colour, got {}", v, scan.colors[v][c]));
+  if (options.tolerance && !(*options.tolerance > 0))
+    throw InputError(fmt::format("expected a tolerance above 0, got {}", *options.tolerance));
+  (void)largest_size(options.width, options.height);
+}
+
+// Each face with wedges of its own.
+Mesh textured(const Mesh& mesh, const Atlas& atlas, double share) {
+  Mesh result;
+  result.positions = mesh.positions;
+  result.has_uv = true;
+  result.wedges.reserve(3 * mesh.face_count());
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    for (int c = 0; c < 3; ++c) {
+      const Vec2d p = corner_place(atlas.tiles[f], c, share);
+      result.wedges.push_back({mesh.vertex(FaceId(f), c), {static_cast<float>(p.x / atlas.width), static_cast<float>(p.y / atlas.height)}});
+    }
+    result.faces.push_back({WedgeId(3 * f), WedgeId(3 * f + 1), WedgeId(3 * f + 2)});
+  }
+  return result;
+}
+
+Image painted(const Atlas& atlas, const std::vector<Rgb8>& colors) {
+  Image image(atlas.width, atlas.height, kRgb8);
+  std::size_t t = 0;
+  for (const Tile& tile : atlas.tiles)
+    for_each_texel(tile.size, [&](int i, int j) {
+      const auto [x, y] = tile.place(i, j);
+      std::copy_n(colors[t++].data(), 3, image.channels<std::uint8_t>(x, y));
+    });
+  return image;
+}
+
+TexelCounts counts_of(const Atlas& atlas, const TexelColors& colors) {
+  TexelCounts counts{.atlas = static_cast<std::uint64_t>(atlas.width) * static_cast<std::uint64_t>(atlas.height),
+                     .inside = colors.hits.size()};
+  for (const std::uint32_t hits : colors.hits) {
+    counts.hit += hits > 0;
+    counts.averaged += hits > 1;
+  }
+  counts.filled = counts.inside - counts.hit;
+  return counts;
+}
+
+}  // namespace
+
+BakeResult bake_scan(const Mesh& scan, const BakeOptions& options) {
+  require_input(scan, options);
+  const Mesh dense = bare_scan(scan);
+  BakeResult result;
+  result.simplified = simplify::simplify_mesh(
+      dense, {.target_faces = options.target_faces, .tolerance = options.tolerance, .record_landings = true, .progress = options.progress});
+  const Mesh& mesh = result.simplified.mesh;
+
+  result.spacing = mean_edge_length(dense);
+  if (!(result.spacing > 0)) throw InputError("expected a surface, got edges that all have length 0");
+  result.atlas = make_atlas(mesh, result.spacing, options.width, options.height);
+  const Atlas& atlas = result.atlas;
+  const TexelNodes nodes(mesh, atlas);
+  const TexelColors colors = average_colors(atlas, nodes, dense.colors, result.simplified.landings);
+  const TexelMetric metric(mesh, atlas);
+  const FillProblem problem{atlas, nodes, colors, metric};
+  const SurfaceFill fill = options.fill == FillKind::exact ? fill_exactly(problem) : fill_iteratively(problem);
+
+  result.texture = painted(atlas, filled_colors(colors, fill));
+  result.share = options.corners == Corners::exact ? 0 : drawn_in_share(atlas);
+  result.mesh = textured(mesh, atlas, result.share);
+  result.texels = counts_of(atlas, colors);
+  result.without_face = colors.without_face;
+  result.iterations = fill.iterations;
+  for (const std::uint64_t distance : fill.distance)
+    result.fill_distance_max = std::max(result.fill_distance_max, static_cast<double>(distance) * metric.step_length());
+  result.seam_residual = largest_seam_residual(mesh, atlas, result.texture);
+  return result;
+}
+
+}  // namespace etalon::bake

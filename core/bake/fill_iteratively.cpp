@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <utility>
+
+#include "core/bake/surface_fill.h"
+#include "core/base/parallel.h"
+
+namespace etalon::bake {
+namespace {
+
+using Nearest = std::pair<std::uint64_t, std::uint32_t>;  // distance, source
+
+class IterativeFill {
+ public:
+  explicit IterativeFill(const FillProblem& problem) : problem_(problem), nodes_(problem.nodes), hits_(problem.colors) {
+    const std::size_t count = nodes_.texel_count();
+    fill_.source.assign(count, kNoGroup);
+    fill_.distance.assign(count, kNoDistance);
+    fill_.feature.assign(count, kNoGroup);
+    for (std::uint32_t t = 0; t < count; ++t)
+      if (hits_.is_hit(t)) make_feature(t, {0, nodes_.node_of(t)});
+    for (std::uint32_t f = 0; f < face_count(); ++f) face_of_first_.push_back(nodes_.first(f));
+    dirty_.assign(face_count(), 1);
+  }
+
+  SurfaceFill run() {
+    bool changed = true;
+    while (changed) {
+      ++fill_.iterations;
+      parallel_for_blocks(face_count(), 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t f = begin; f < end; ++f)
+          if (dirty_[f]) dirty_[f] = transform(static_cast<std::uint32_t>(f));
+      });
+      changed = propagate();
+    }
+    return std::move(fill_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t face_count() const { return problem_.atlas.tiles.size(); }
+  [[nodiscard]] Nearest at(std::uint32_t texel) const { return {fill_.distance[texel], fill_.source[texel]}; }
+  void set(std::uint32_t texel, const Nearest& nearest) {
+    fill_.distance[texel] = nearest.first;
+    fill_.source[texel] = nearest.second;
+  }
+  void make_feature(std::uint32_t texel, const Nearest& nearest) {
+    set(texel, nearest);
+    fill_.feature[texel] = texel;
+  }
+
+  // One transform of one triangle: down and up its rows, each row also to the right and back. Whether anything changed: if not, and its features
+  // stay, the next would change nothing either.
+  bool transform(std::uint32_t f) {
+    const int size = problem_.atlas.tiles[f].size;
+    const TexelPlane plane = problem_.metric.plane(f);
+    const std::uint32_t first = nodes_.first(f);
+    std::vector<GridPoint> centers;
+    for_each_texel(size, [&](int i, int j) { centers.push_back(plane.center(i, j)); });
+    bool changed = false;
+    // Whether `feature` is nearer to t than what t has.
+    const auto try_feature = [&](std::uint32_t t, std::uint32_t feature) {
+      if (feature == kNoGroup || feature == t) return;
+      const Nearest offered{fill_.distance[feature] + grid_distance(centers[t - first], centers[feature - first]), fill_.source[feature]};
+      if (offered >= at(t)) return;
+      set(t, offered);
+      fill_.feature[t] = feature;
+      changed = true;
+    };
+    const auto texel = [&](int i, int j) { return nodes_.texel(f, size, i, j); };
+    const auto try_neighbor = [&](int i, int j, int di, int dj) {
+      const int p = i + di, q = j + dj;
+      if (p >= 0 && q >= 0 && p + q < size) try_feature(texel(i, j), fill_.feature[texel(p, q)]);
+    };
+    for (std::uint32_t t = first; t < first + centers.size(); ++t) try_feature(t, fill_.feature[t]);  // a feature may have come nearer
+    for (const int dj : {-1, 1})
+      for (int n = 0; n < size; ++n) {
+        const int j = dj < 0 ? n : size - 1 - n;
+        for (int i = 0; i + j < size; ++i)
+          for (const int di : {-1, 0, 1}) try_neighbor(i, j, di, dj);
+        for (int i = 0; i + j < size; ++i) try_neighbor(i, j, -1, 0);
+        for (int i = size - 1 - j; i >= 0; --i) try_neighbor(i, j, 1, 0);
+      }
+    return changed;
+  }
+
+  // Each node takes the best of its texels, and they become features. Whether a triangle is to be transformed again.
+  bool propagate() {
+    for (std::uint32_t g = 0; g < nodes_.group_count(); ++g) {
+      const auto members = nodes_.members(g);
+      if (hits_.is_hit(members[0])) continue;
+      Nearest best = at(members[0]);
+      for (const std::uint32_t t : members) best = std::min(best, at(t));
+      if (best.first == kNoDistance) continue;
+      for (const std::uint32_t t : members) {
+        if (at(t) == best && fill_.feature[t] == t) continue;
+        make_feature(t, best);
+        const auto next = std::upper_bound(face_of_first_.begin(), face_of_first_.end(), t);
+        dirty_[static_cast<std::size_t>(next - face_of_first_.begin()) - 1] = 1;
+      }
+    }
+    return std::find(dirty_.begin(), dirty_.end(), 1) != dirty_.end();
+  }
+
+  const FillProblem& problem_;
+  const TexelNodes& nodes_;
+  const TexelColors& hits_;
+  SurfaceFill fill_;
+  std::vector<std::uint32_t> face_of_first_;  // #F: the first texel of each face
+  std::vector<std::uint8_t> dirty_;           // #F
+};
+
+}  // namespace
+
+SurfaceFill fill_iteratively(const FillProblem& problem) { return IterativeFill(problem).run(); }
+
+}  // namespace etalon::bake
