@@ -1,7 +1,6 @@
 #include "validation/studies/chen_formats.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/adapt/adapt_map.h"
 #include "core/adapt/map_format.h"
@@ -21,18 +20,7 @@ std::vector<ChenFormat> adapt_in_formats(Renderer& renderer, const adapt::AdaptS
     adapt::Gutter gutter(borders, width, height);
     (void)adapt::adapt_map(renderer, sequence, sequence.size(), level, map, {.gutter = &gutter});
     format.unnamed = adapt::unnamed_texels(width, height, type);
-    std::vector<double> errors;
-    errors.reserve(map.texel_count());
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        if (!gutter.in_chart(x, y)) continue;
-        const Vec2d a = adapt::map_coordinate(map, x, y), b = adapt::map_coordinate(analytic, x, y);
-        const double dx = (a.x - b.x) * width, dy = (a.y - b.y) * height;
-        errors.push_back(std::sqrt(dx * dx + dy * dy));
-      }
-    std::sort(errors.begin(), errors.end());
-    if (errors.empty()) errors.push_back(0);
-    format.median = errors[errors.size() / 2], format.p99 = errors[errors.size() * 99 / 100], format.largest = errors.back();
+    format.errors = texel_errors(map, gutter, [&](int x, int y) { return adapt::map_coordinate(analytic, x, y); });
     format.map = std::make_shared<const Image>(std::move(map));
     formats.push_back(std::move(format));
   }

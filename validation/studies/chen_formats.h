@@ -8,14 +8,15 @@
 #include "core/adapt/chart_borders.h"
 #include "core/draw/renderer.h"
 #include "core/mesh/mesh.h"
+#include "validation/studies/chen_inverse.h"
 
 namespace etalon::validation {
 
 struct ChenFormat {
   ChannelType type = ChannelType::float32;
-  std::shared_ptr<const Image> map;         ///< of the level, adapted in this format
-  std::size_t unnamed = 0;                  ///< texels that its identity map does not name
-  double median = 0, p99 = 0, largest = 0;  ///< texels from where the exact chain leads, over the charts
+  std::shared_ptr<const Image> map;  ///< of the level, adapted in this format
+  std::size_t unnamed = 0;           ///< texels that its identity map does not name
+  TexelErrors errors;                ///< from where the exact chain leads
 };
 
 /// The indexing map adapted from the finest level to `level`, with its gutter, in float32, half, unorm16 and unorm8. `analytic`: of that

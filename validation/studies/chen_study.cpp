@@ -91,6 +91,9 @@ void compare_formats(const ChenSubject& subject, const ChenLevels& levels, const
     for (std::size_t n = 0; n < sums.size(); ++n) sums[n].add(full, drawn({&coarsest.mesh, texture, result.formats[n].format.map}));
   }
   for (std::size_t n = 0; n < sums.size(); ++n) result.formats[n].masked_db = sums[n].masked_db();
+  const std::vector<int> sizes = {options.map_size / 4, options.map_size, 2 * options.map_size};
+  result.inverses = adapt_there_and_back(exact, levels.sequence, levels.borders, coarsest.level, sizes,
+                                         [&](int size) { steps.begin(fmt::format("{}: {}² maps down and up again", subject.name, size)); });
 }
 
 /// Pictures at twice the size, the shown square of the full mesh cut out, averaged down.
@@ -256,7 +259,7 @@ ChenStudyResult run_chen_study(const std::vector<ChenSubject>& subjects, Rendere
   result.exact_name = exact.name();
   if (options.device != nullptr) result.device_name = options.device->name();
   result.map_size = options.map_size, result.views_px = options.views_px, result.view_count = options.view_count;
-  int total = 3;
+  int total = 6;  // formats, maps of three sizes there and back, objects together, the examples
   for (const ChenSubject& subject : subjects) {
     check(subject);
     total += steps_of(subject);

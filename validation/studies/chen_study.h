@@ -97,6 +97,7 @@ struct ChenSubjectResult {
   Image parameterization;                         ///< edges over the first texture; empty for subjects of no figure that shows it
   std::vector<ChenFormatOutcome> formats;         ///< of one subject only: one with a checker, else the first
   std::size_t formats_texture = 0;
+  std::vector<ChenInverse> inverses;  ///< of the same subject: down to its coarsest level and up again
   adapt::CellStatistics records;
   ChenPacking packing;
   std::optional<ChenCollapse> collapse;  ///< one to be drawn

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "core/adapt/map_format.h"
+
 #include <cmath>
 
 #include "core/base/error.h"
@@ -80,8 +82,19 @@ TEST_CASE("a whole study of a small swirl: every method, the same bytes for any 
     for (std::size_t l = 0; l < 2; ++l) CHECK(*s.of(0, l, ChenMethod::indexed).masked_db > *s.of(0, l, ChenMethod::qem5).masked_db + 1);
     CHECK(*s.of(0, 0, ChenMethod::indexed).masked_db > *s.of(0, 1, ChenMethod::indexed).masked_db);
     REQUIRE(s.formats.size() == 4);
-    CHECK(s.formats[0].format.median <= s.formats[3].format.median);  // float32 against unorm8
-    CHECK(s.formats[3].format.unnamed == 0);                          // 256 steps name 96 texels
+    CHECK(s.formats[0].format.errors.median <= s.formats[3].format.errors.median);  // float32 against unorm8
+    CHECK(s.formats[3].format.unnamed == 0);                                        // 256 steps name 96 texels
+    REQUIRE(s.inverses.size() == 3 * 4 * 2);
+    for (const ChenInverse& i : s.inverses) {
+      CHECK(i.down.median <= i.down.p99);
+      CHECK(i.back.p99 <= i.back.largest);
+      CHECK(i.unnamed == adapt::unnamed_texels(i.size, i.size, i.type));
+    }
+    const ChenInverse &coarse = s.inverses[0], &fine = s.inverses[16], &bytes = s.inverses[22];  // float32 and unorm8, linear
+    CHECK(coarse.size * 8 == fine.size);
+    CHECK(fine.back.median < 0.1);
+    CHECK(bytes.type == ChannelType::unorm8);
+    CHECK(bytes.back.median > fine.back.median);
     CHECK(!s.parameterization.empty());
     CHECK(!result.sharing.has_value());  // the swirl fills its map
     for (const StudyFigure& figure : report.figures) {
