@@ -1,13 +1,10 @@
 // The strict loop: at each step the one legal half-edge collapse of least (cost, vertex, target), over the whole mesh.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <limits>
 
 #include "core/simplify/collapse_candidate.h"
-#include "core/simplify/collapse_queue.h"
-#include "core/simplify/legality.h"
+#include "core/simplify/strict_loop.h"
 
 namespace etalon::simplify {
 
@@ -24,7 +21,7 @@ namespace etalon::simplify {
 /// exception: beside a place of several fans, where another fan's faces decide the link condition too, a collapse that becomes legal may be
 /// seen late.)
 template <class Metric>
-class CollapseLoop {
+class CollapseLoop : public StrictLoop {
  public:
   struct Step {
     std::uint32_t u = kNone, v = kNone;
@@ -32,29 +29,22 @@ class CollapseLoop {
     double cost = 0;
   };
 
-  CollapseLoop(CollapseMesh& mesh, Metric& metric, Legality& legality)
-      : mesh_(mesh), metric_(metric), legality_(legality), queue_(mesh.vertex_capacity()), refused_(mesh.vertex_capacity(), false) {
-    std::vector<QueuedCollapse> entries;
-    for (std::uint32_t u = 0; u < mesh_.vertex_capacity(); ++u)
-      if (const QueuedCollapse entry = best_of(u); entry.target != kNone) entries.push_back(entry);
-    queue_.assign(std::move(entries));
+  CollapseLoop(CollapseMesh& mesh, Metric& metric, Legality& legality) : StrictLoop(mesh, legality), metric_(metric) {
+    fill_queue([&](std::uint32_t u) { return best_of(u); });
   }
 
   /// The next collapse, judged legal and not yet done; u is kNone where none is left. `accept(step)`: a last word, Refusal::none or
   /// another.
   template <class Accept>
   [[nodiscard]] Step find(const Accept& accept) {
-    while (!queue_.empty()) {
-      const QueuedCollapse top = queue_.top();
-      const Step step{top.vertex, top.target, mesh_.find_edge(top.vertex, top.target), top.cost};
-      Refusal refusal = legality_.check(top.vertex, step.edge);
-      if (refusal == Refusal::none) refusal = accept(step);
-      if (refusal == Refusal::none) return step;
-      ++refusals_[static_cast<std::size_t>(refusal)];
-      refused_[top.vertex] = true;
-      requeue(best_after(top));
-    }
-    return {};
+    const auto step_of = [&](const QueuedCollapse& top) {
+      return Step{top.vertex, top.target, mesh_.find_edge(top.vertex, top.target), top.cost};
+    };
+    const auto judge = [&](const Step& step) {
+      const Refusal refusal = legality_.check(step.u, step.edge);
+      return refusal == Refusal::none ? accept(step) : refusal;
+    };
+    return first_legal(step_of, judge, [&](const QueuedCollapse& top) { return least_behind(top.vertex, top.cost, top.target); });
   }
   [[nodiscard]] Step find() {
     return find([](const Step&) { return Refusal::none; });
@@ -75,13 +65,8 @@ class CollapseLoop {
     });
   }
 
-  [[nodiscard]] const std::array<std::uint64_t, kRefusalCount>& refusals() const { return refusals_; }
-  [[nodiscard]] const CollapseQueue& queue() const { return queue_; }
-
  private:
   static constexpr bool kHasBounds = requires(Metric & m) { m.bound_of(0); };
-
-  static bool before(double cost_a, std::uint32_t a, double cost_b, std::uint32_t b) { return cost_a != cost_b ? cost_a < cost_b : a < b; }
 
   // Calls visit(v, half-edge) for every neighbour that u's kind lets it go to.
   template <class Visit>
@@ -138,21 +123,11 @@ class CollapseLoop {
     refused_[u] = false;
     return least_behind(u, -1, 0);
   }
-  [[nodiscard]] QueuedCollapse best_after(const QueuedCollapse& refused) {
-    return least_behind(refused.vertex, refused.cost, refused.target);
-  }
 
   // Whether u→v now comes before u's entry; then it takes its place.
   void see_cost(std::uint32_t u, std::uint32_t v, std::uint32_t h, const QueuedCollapse& entry) {
     const double cost = metric_.cost(u, v, h);
     if (before(cost, v, entry.cost, entry.target)) queue_.set({cost, u, v});
-  }
-
-  void requeue(const QueuedCollapse& entry) {
-    if (entry.target == kNone)
-      queue_.remove(entry.vertex);
-    else
-      queue_.set(entry);
   }
 
   // w's faces changed. Without a refusal, and with its best elsewhere, only the way to v can have become better.
@@ -171,14 +146,9 @@ class CollapseLoop {
     if (queue_.goes_to(w, v)) requeue(best_of(w));
   }
 
-  CollapseMesh& mesh_;
   Metric& metric_;
-  Legality& legality_;
-  CollapseQueue queue_;
-  std::vector<bool> refused_;  // whether an entry stands behind a refused candidate
   std::vector<CollapseCandidate> candidates_, ring_;
   std::vector<std::uint32_t> ways_;  // of the ring, which u may go to
-  std::array<std::uint64_t, kRefusalCount> refusals_{};
 };
 
 }  // namespace etalon::simplify

@@ -3,14 +3,12 @@
 // [Garland & Heckbert 1997]; [Kim, Choi & Lee 2008, figure 1a].
 #pragma once
 
-#include <array>
 #include <limits>
 #include <vector>
 
-#include "core/simplify/collapse_queue.h"
-#include "core/simplify/legality.h"
 #include "core/simplify/moved_vertex.h"
 #include "core/simplify/placement.h"
+#include "core/simplify/strict_loop.h"
 
 namespace etalon::simplify {
 
@@ -24,7 +22,7 @@ namespace etalon::simplify {
 /// The queue holds for each vertex the least of its edges to higher vertices not yet refused. A refusal may become void when the faces of
 /// either end change, by a vertex lost or one moved: then all refused edges at that vertex are considered anew.
 template <class Metric>
-class FullEdgeLoop {
+class FullEdgeLoop : public StrictLoop {
  public:
   struct Step {
     std::uint32_t u = kNone, v = kNone;
@@ -36,34 +34,23 @@ class FullEdgeLoop {
   };
 
   FullEdgeLoop(CollapseMesh& mesh, UnitPositions& positions, Metric& metric, Legality& legality)
-      : mesh_(mesh),
-        positions_(positions),
-        metric_(metric),
-        legality_(legality),
-        queue_(mesh.vertex_capacity()),
-        refused_(mesh.vertex_capacity(), false),
-        refused_at_(mesh.vertex_capacity(), false) {
-    std::vector<QueuedCollapse> entries;
-    for (std::uint32_t v = 0; v < mesh_.vertex_capacity(); ++v)
-      if (const QueuedCollapse best = best_of(v); best.target != kNone) entries.push_back(best);
-    queue_.assign(std::move(entries));
+      : StrictLoop(mesh, legality), positions_(positions), metric_(metric), refused_at_(mesh.vertex_capacity(), false) {
+    fill_queue([&](std::uint32_t v) { return best_of(v); });
   }
 
   /// The next collapse, judged legal and not yet done; u is kNone where none is left. `accept(step)`: a last word, Refusal::none or
   /// another.
   template <class Accept>
   [[nodiscard]] Step find(const Accept& accept) {
-    while (!queue_.empty()) {
-      const QueuedCollapse top = queue_.top();
-      Step step = step_of(top);
-      Refusal refusal = step.moves ? legality_.check_move(step.u, step.v, step.edge, step.moved) : legality_.check(step.u, step.edge);
-      if (refusal == Refusal::none) refusal = accept(step);
-      if (refusal == Refusal::none) return step;
-      ++refusals_[static_cast<std::size_t>(refusal)];
-      refused_[top.vertex] = refused_at_[top.vertex] = refused_at_[top.target] = true;
-      requeue(best_after(top));
-    }
-    return {};
+    const auto judge = [&](const Step& step) {
+      const Refusal refusal = step.moves ? legality_.check_move(step.u, step.v, step.edge, step.moved) : legality_.check(step.u, step.edge);
+      return refusal == Refusal::none ? accept(step) : refusal;
+    };
+    return first_legal([&](const QueuedCollapse& top) { return step_of(top); }, judge,
+                       [&](const QueuedCollapse& top) {
+                         refused_at_[top.vertex] = refused_at_[top.target] = true;
+                         return least_behind(top.vertex, top.cost, top.target);
+                       });
   }
   [[nodiscard]] Step find() {
     return find([](const Step&) { return Refusal::none; });
@@ -87,9 +74,6 @@ class FullEdgeLoop {
     requeue(best_of(step.v));
     mesh_.for_each_neighbor(step.v, [&](std::uint32_t n, std::uint32_t h) { see_new_cost(n, h, step); });
   }
-
-  [[nodiscard]] const std::array<std::uint64_t, kRefusalCount>& refusals() const { return refusals_; }
-  [[nodiscard]] const CollapseQueue& queue() const { return queue_; }
 
   /// What the edge of half-edge h between a and b would become: u is kNone where nothing.
   [[nodiscard]] Step way_of(std::uint32_t a, std::uint32_t b, std::uint32_t h) const {
@@ -117,8 +101,6 @@ class FullEdgeLoop {
   }
 
  private:
-  static bool before(double cost_a, std::uint32_t a, double cost_b, std::uint32_t b) { return cost_a != cost_b ? cost_a < cost_b : a < b; }
-
   // Where u has two wedges and v one for both sides, v has no place in texture space that would do for both.
   [[nodiscard]] bool sides_fit(const CollapseMesh::Edge& edge) const {
     if (!mesh_.textured() || edge.face_count() < 2) return true;
@@ -161,16 +143,6 @@ class FullEdgeLoop {
     refused_[v] = false;
     return least_behind(v, -1, 0);
   }
-  [[nodiscard]] QueuedCollapse best_after(const QueuedCollapse& refused) const {
-    return least_behind(refused.vertex, refused.cost, refused.target);
-  }
-
-  void requeue(const QueuedCollapse& entry) {
-    if (entry.target == kNone)
-      queue_.remove(entry.vertex);
-    else
-      queue_.set(entry);
-  }
 
   void revive(std::uint32_t v) {
     if (!refused_at_[v]) return;
@@ -190,14 +162,9 @@ class FullEdgeLoop {
     if (before(cost, step.v, entry.cost, entry.target)) queue_.set({cost, n, step.v});
   }
 
-  CollapseMesh& mesh_;
   UnitPositions& positions_;
   Metric& metric_;
-  Legality& legality_;
-  CollapseQueue queue_;
-  std::vector<bool> refused_;     // whether a vertex' entry stands behind a refused edge
   std::vector<bool> refused_at_;  // whether an edge at the vertex was refused since its faces changed last
-  std::array<std::uint64_t, kRefusalCount> refusals_{};
 };
 
 }  // namespace etalon::simplify
