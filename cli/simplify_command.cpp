@@ -1,6 +1,5 @@
 #include "cli/simplify_command.h"
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/length_option.h"
 #include "cli/model_input.h"
 #include "cli/repair_notes.h"
 #include "cli/usage_error.h"
@@ -28,6 +28,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using simplify::SimplifyResult;
 using validation::grouped;
+
+constexpr const char* kTolerance = "simplify: --tolerance";
 
 struct Options {
   std::string model, output, metric = "qem", collapse = "half", tolerance, unit;
@@ -47,23 +49,8 @@ struct Job {
   double unit = 0;                  // model units; 0: the default
 };
 
-// "0.01", or "0.5%" of the diagonal.
-double length_of(const std::string& option, const std::string& text, double diagonal) {
-  std::size_t read = 0;
-  double length = -1;
-  try {
-    length = std::stod(text, &read);
-  } catch (const std::exception&) {
-    read = 0;
-  }
-  const bool percent = read + 1 == text.size() && text.back() == '%';
-  if (read == 0 || (read != text.size() && !percent) || !(length >= 0) || std::isinf(length))
-    throw UsageError(fmt::format("simplify: {}: expected a length of at least 0, as 0.01 or 0.5% of the diagonal, got {}", option, text));
-  return percent ? length / 100 * diagonal : length;
-}
-
 double unit_of(const std::string& text, double diagonal) {
-  const double unit = length_of("--unit", text, diagonal);
+  const double unit = parse_length(text, diagonal, "simplify: --unit");
   if (!(unit >= 1e-12 && unit <= 1e12))
     throw UsageError(fmt::format("simplify: --unit: expected a length from 1e-12 to 1e12 model units, got {}", text));
   return unit;
@@ -96,7 +83,7 @@ Job read_job(const Options& options, CallFiles& files) {
   const std::size_t faces = job.model.mesh.face_count();
   if (options.faces) job.target_faces = static_cast<std::size_t>(*options.faces);
   if (options.ratio) job.target_faces = simplify::faces_for_ratio(faces, *options.ratio);
-  if (!options.tolerance.empty()) job.tolerance = length_of("--tolerance", options.tolerance, bounding_box(job.model.mesh).diagonal());
+  if (!options.tolerance.empty()) job.tolerance = parse_length(options.tolerance, bounding_box(job.model.mesh).diagonal(), kTolerance);
   if (!options.unit.empty()) job.unit = unit_of(options.unit, bounding_box(job.model.mesh).diagonal());
   return job;
 }
@@ -173,7 +160,7 @@ int run(const Options& options) {
   if (options.faces && options.ratio) throw UsageError("simplify: expected one of --faces and --ratio, got both");
   if (!options.faces && !options.ratio && options.tolerance.empty())
     throw UsageError("simplify: expected one of --faces, --ratio and --tolerance");
-  if (!options.tolerance.empty()) (void)length_of("--tolerance", options.tolerance, 1);
+  if (!options.tolerance.empty()) (void)parse_length(options.tolerance, 1, kTolerance);
   if (!options.unit.empty()) (void)unit_of(options.unit, 1);
   require_writable_file(options.output);
   require_writable_file(options.common.json);

@@ -125,10 +125,18 @@ class GlbWriter {
         binary_ += image;
         json_["images"].push_back({{"bufferView", end_view(0)}, {"mimeType", mime_type(image, m)}});
         json_["textures"].push_back({{"source", json_["images"].size() - 1}});
+        if (m.nearest_texel) json_["textures"].back()["sampler"] = nearest_sampler();
         material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", json_["textures"].size() - 1}};
       }
       json_["materials"].push_back(std::move(material));
     }
+  }
+
+  // NEAREST both ways, CLAMP_TO_EDGE: the one sampler of the file.
+  std::size_t nearest_sampler() {
+    if (!json_.contains("samplers"))
+      json_["samplers"] = Json::array({{{"magFilter", 9728}, {"minFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33071}}});
+    return 0;
   }
 
   const char* mime_type(const std::string& image, const Material& m) const {

@@ -16,6 +16,8 @@ struct Material {
   std::string name;
   std::optional<std::filesystem::path> texture_path;  ///< of an existing file beside the model, ready to open
   Image texture;                                      ///< embedded in the model file (GLB), rows as everywhere; else empty
+  /// The texture is meant to be looked up at its nearest texel. Written to .glb (a sampler that says so), never read; OBJ and PLY cannot say it.
+  bool nearest_texel = false;
 };
 
 struct LoadedModel {
