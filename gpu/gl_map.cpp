@@ -130,12 +130,23 @@ void GlMap::upload(const Geometry& geometry) const {
 }
 
 void GlMap::apply(std::span<const MapPass> passes) {
-  if (passes.empty()) return;
-  for (const MapPass& pass : passes) {
-    list_.vertices = pass.vertices, list_.triangles = pass.triangles;
-    list_.draws[0].triangle_count = static_cast<std::uint32_t>(pass.triangles.size());
-    validate_geometry(list_, frame_);
+  std::size_t good = 0;  // those before the first that must be refused are done all the same
+  try {
+    for (; good < passes.size(); ++good) {
+      list_.vertices = passes[good].vertices, list_.triangles = passes[good].triangles;
+      list_.draws[0].triangle_count = static_cast<std::uint32_t>(passes[good].triangles.size());
+      validate_groups(passes[good]);
+      validate_geometry(list_, frame_);
+    }
+  } catch (const InputError&) {
+    draw(passes.first(good));
+    throw;
   }
+  draw(passes);
+}
+
+void GlMap::draw(std::span<const MapPass> passes) {
+  if (passes.empty()) return;
   context_.make_current();
   set_state();
   Geometry geometry = std::exchange(last_, {});

@@ -44,6 +44,7 @@ class GlMap : public ResidentMap {
     GlHandle texture, framebuffer;
   };
   [[nodiscard]] Side make_side(const Image& map, const DeviceLimits& limits) const;
+  void draw(std::span<const MapPass> passes);
   void set_state();
   void upload(const Geometry& geometry) const;
 

@@ -40,6 +40,7 @@ class CpuMap : public ResidentMap {
   void apply(const MapPass& pass) {
     list_.vertices = pass.vertices, list_.triangles = pass.triangles;
     list_.draws[0].triangle_count = static_cast<std::uint32_t>(pass.triangles.size());
+    validate_groups(pass);
     validate_geometry(list_, frame_);
     const std::vector<GroupTile> tiles = tiles_of(pass);
     ids_.resize(std::max(ids_.size(), pass.triangles.size()));

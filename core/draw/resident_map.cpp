@@ -1,9 +1,12 @@
 #include "core/draw/resident_map.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
 
+#include "core/base/error.h"
 #include "core/draw/renderer.h"
 
 namespace etalon {
@@ -20,6 +23,7 @@ class RenderedMap : public ResidentMap {
 
   void apply(std::span<const MapPass> passes) override {
     for (const MapPass& pass : passes) {
+      validate_groups(pass);
       const std::shared_ptr<const Image> unowned(std::shared_ptr<const Image>(), &map_);  // the list lives shorter than the map
       const std::vector<Image> drawn = renderer_.render(map_pass_list(pass, unowned, state_.filter), frame_);
       copy_drawn(drawn[0], drawn[1]);
@@ -50,6 +54,16 @@ class RenderedMap : public ResidentMap {
 };
 
 }  // namespace
+
+void validate_groups(const MapPass& pass) {
+  std::size_t last = 0;
+  for (const std::uint32_t end : pass.group_ends) {
+    if (end < last) throw InputError(fmt::format("map pass: expected group ends that ascend, got {} behind {}", end, last));
+    last = end;
+  }
+  if (last != pass.triangles.size())
+    throw InputError(fmt::format("map pass: expected groups that end with triangle {}, got {}", pass.triangles.size(), last));
+}
 
 Frame map_frame(int width, int height, PixelFormat format, const MapState& state) {
   const int guard = std::clamp((kMostFrame - std::max(width, height)) / 2, 0, kMostGuard);

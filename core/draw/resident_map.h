@@ -25,6 +25,9 @@ struct MapPass {
   std::vector<std::uint32_t> group_ends;
 };
 
+/// InputError where group_ends do not ascend to #T.
+void validate_groups(const MapPass& pass);
+
 /// How a map looks itself up and where its vertices may be.
 struct MapState {
   Filter filter = Filter::linear;  ///< clamped to the map's edge
@@ -37,8 +40,8 @@ class ResidentMap {
   virtual ~ResidentMap() = default;
 
   /// Does the passes one after the other: a texel that a triangle covers becomes what the lookup at the triangle's coordinate gives in the
-  /// map as it was before the pass; all others keep their bytes. InputError: a pass breaks docs/contract.md#input; the map is then as the passes
-  /// before it left it. UnavailableError as Renderer::render().
+  /// map as it was before the pass; all others keep their bytes. InputError: a pass breaks docs/contract.md#input or its groups do; the map is then as
+  /// the passes before it left it. UnavailableError as Renderer::render().
   virtual void apply(std::span<const MapPass> passes) = 0;
 
   [[nodiscard]] virtual Image read_back() = 0;

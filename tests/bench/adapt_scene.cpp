@@ -1,5 +1,7 @@
 #include "tests/bench/adapt_scene.h"
 
+#include <utility>
+
 #include "core/adapt/adapt_map.h"
 #include "core/mesh/weld.h"
 #include "core/procedural/head.h"
@@ -16,12 +18,16 @@ BenchScene adapt_scene(int size, Filter filter, std::size_t faces) {
   MapWork& work = scene.map_work.emplace();
   work.map = adapt::identity_map(size, size);
   work.filter = filter;
-  const auto pass_of = [&](std::span<const std::uint32_t> splits) {
-    return adapt::cell_pass(sequence, splits, adapt::AdaptDirection::to_before, size, size, {});
-  };
-  for (const auto& pack : adapt::pack_splits(sequence, sequence.size(), 0, size, size)) {
-    work.packed.push_back(pass_of(pack));
-    for (const std::uint32_t split : pack) work.one_by_one.push_back(pass_of({&split, 1}));
+  // Down and up again: down alone, run after run, would turn the map into something that no adaptation meets.
+  for (const auto& [from, to] : {std::pair{sequence.size(), std::size_t{0}}, {std::size_t{0}, sequence.size()}}) {
+    const auto direction = to < from ? adapt::AdaptDirection::to_before : adapt::AdaptDirection::to_after;
+    const auto pass_of = [&](std::span<const std::uint32_t> splits) {
+      return adapt::cell_pass(sequence, splits, direction, size, size, {});
+    };
+    for (const auto& pack : adapt::pack_splits(sequence, from, to, size, size)) {
+      work.packed.push_back(pass_of(pack));
+      for (const std::uint32_t split : pack) work.one_by_one.push_back(pass_of({&split, 1}));
+    }
   }
   return scene;
 }

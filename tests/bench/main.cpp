@@ -46,7 +46,7 @@ std::vector<SceneEntry> all_entries() {
   for (const Filter filter : {Filter::linear, Filter::nearest})
     for (const int size : {1024, 256})
       entries.push_back({fmt::format("adapt_{}_{}", to_string(filter), size),
-                         fmt::format("texture adaptation, 7,684 → 499 faces, {}² RG32F, {}", size, to_string(filter)),
+                         fmt::format("texture adaptation, 7,684 → 499 → 7,684 faces, {}² RG32F, {}", size, to_string(filter)),
                          [=] { return adapt_scene(size, filter); },
                          1});  // roundings add up over the passes: what they are, etalon verify says
   return entries;

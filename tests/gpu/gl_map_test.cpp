@@ -70,6 +70,18 @@ TEST_CASE("a map on the device refuses what no drawing may hold and keeps its te
   wrong.vertices = {vertex_at(0, 0), vertex_at(9, 0), vertex_at(0, 9)}, wrong.triangles = {{0, 1, 3}}, wrong.group_ends = {1};
   CHECK_THROWS_AS(map->apply(std::span(&wrong, 1)), InputError);
   CHECK(map->read_back() == start);
+  MapPass good = wrong, no_groups = wrong, beyond = wrong;
+  good.triangles = {{0, 1, 2}}, no_groups.triangles = beyond.triangles = good.triangles;
+  no_groups.group_ends = {}, beyond.group_ends = {2};
+  CHECK_THROWS_AS(map->apply(std::span(&no_groups, 1)), InputError);
+  CHECK_THROWS_AS(map->apply(std::span(&beyond, 1)), InputError);
+  CHECK(map->read_back() == start);
+  const std::vector<MapPass> good_and_bad = {good, wrong};  // the map is then as the passes before left it
+  CHECK_THROWS_AS(map->apply(good_and_bad), InputError);
+  const auto alone = renderer->make_map(start, state);
+  alone->apply(std::span(&good, 1));
+  CHECK(alone->read_back() != start);
+  CHECK(map->read_back() == alone->read_back());
   MapState finer = state;
   finer.raster.subtexel_bits = 16;
   CHECK_THROWS_AS((void)renderer->make_map(start, finer), UnavailableError);

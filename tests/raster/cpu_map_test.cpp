@@ -85,6 +85,17 @@ TEST_CASE("a resident map refuses what no drawing may hold and keeps its texels"
   wrong.vertices = quad(0, 0, 4, 4), wrong.triangles = {{0, 1, 99}}, wrong.group_ends = {1};
   CHECK_THROWS_AS(map->apply(std::span(&nan, 1)), InputError);
   CHECK_THROWS_AS(map->apply(std::span(&wrong, 1)), InputError);
+  MapPass good = wrong, no_groups = wrong, beyond = wrong;
+  good.triangles = {{0, 1, 2}}, no_groups.triangles = beyond.triangles = good.triangles;
+  no_groups.group_ends = {}, beyond.group_ends = {2};
+  CHECK_THROWS_AS(map->apply(std::span(&no_groups, 1)), InputError);
+  CHECK_THROWS_AS(map->apply(std::span(&beyond, 1)), InputError);
+  const std::vector<MapPass> good_and_bad = {good, wrong};  // the map is then as the passes before left it
+  const auto both = renderer.make_map(start, {Filter::linear, {}}), alone = renderer.make_map(start, {Filter::linear, {}});
+  CHECK_THROWS_AS(both->apply(good_and_bad), InputError);
+  alone->apply(std::span(&good, 1));
+  CHECK(alone->read_back() != start);
+  CHECK(both->read_back() == alone->read_back());
   const MapPass empty;
   map->apply(std::span(&empty, 1));
   CHECK(map->read_back() == start);
