@@ -112,7 +112,7 @@ void Gutter::add_faces(const std::array<Vec2f, 3>& triangle, std::uint32_t chart
   const auto p = [&](std::size_t k) { return on_grid(triangle[k], width_, height_); };
   for_texel_spans({p(0), p(1), p(2)}, width_, height_, [&](int y, int begin, int end) {
     for (std::size_t n = index(begin, y); n < index(begin, y) + static_cast<std::size_t>(end - begin); ++n) {
-      faces_[n] = static_cast<std::uint16_t>(faces_[n] + count);
+      faces_[n] = static_cast<std::uint32_t>(static_cast<std::int64_t>(faces_[n]) + count);
       if (count > 0) charts_[n] = static_cast<std::uint16_t>(chart);
     }
   });

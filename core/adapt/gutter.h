@@ -39,7 +39,7 @@ struct GutterPlan {
 /// Which texels of a map of one size lie in charts, level by level. A texel whose centre is in several faces is in all of them.
 class Gutter {
  public:
-  /// At the finest level. `borders` must outlive it. Sizes 1..16384. Memory: 4 bytes a texel.
+  /// At the finest level. `borders` must outlive it. Sizes 1..16384. Memory: 6 bytes a texel.
   Gutter(const ChartBorders& borders, int width, int height);
 
   [[nodiscard]] std::size_t level() const { return level_; }
@@ -73,7 +73,7 @@ class Gutter {
   const ChartBorders& borders_;
   int width_, height_;
   std::size_t level_;
-  std::vector<std::uint16_t> faces_;   // over each texel's centre
+  std::vector<std::uint32_t> faces_;   // over each texel's centre
   std::vector<std::uint16_t> charts_;  // the last one that came, modulo 2^16: ties are broken by it
   // Of one side of a split, over its box: kept for their memory.
   std::vector<std::uint16_t> writer_;  // 1 + cell

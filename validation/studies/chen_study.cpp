@@ -225,6 +225,12 @@ std::pair<std::size_t, std::size_t> sharpest_texture(const std::vector<ChenSubje
 void check(const ChenSubject& subject) {
   if (!subject.mesh.has_uv) throw InputError(subject.name + ": expected texture coordinates, got none");
   if (subject.textures.empty()) throw InputError(subject.name + ": expected a texture, got none");
+  for (const Wedge& wedge : subject.mesh.wedges)
+    if (std::min(wedge.uv.x, wedge.uv.y) <= -0.5f || std::max(wedge.uv.x, wedge.uv.y) >= 1.5f)
+      throw InputError(
+          fmt::format("{}: texture coordinates: expected less than half a texture outside of [0, 1], got ({}, {}): one texel of a "
+                      "tiled texture shows many points of the surface",
+                      subject.name, wedge.uv.x, wedge.uv.y));
   if (subject.levels.empty()) throw InputError(subject.name + ": expected a level at least, got none");
   std::size_t above = subject.mesh.face_count();
   for (const std::size_t level : subject.levels) {

@@ -124,6 +124,9 @@ TEST_CASE("study chen: what is refused") {
   subject = swirl_subject();
   subject.mesh.has_uv = false;
   refused(subject, "expected texture coordinates, got none");
+  subject = swirl_subject();
+  subject.mesh.wedges[7].uv.x = 3;
+  refused(subject, "tiled");
 }
 
 TEST_CASE("figures 1 to 3: on a line and in a plane adaptation is exact but for float32") {
