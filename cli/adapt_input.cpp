@@ -30,6 +30,9 @@ double farthest_outside(const MeshReport& report) {
 progressive::EpmContent read_whole(const std::string& path) {
   const io::FileBytes file = io::read_file(path);
   progressive::EpmContent content = naming_the_model(path, [&] { return progressive::decode_epm(file.bytes()); });
+  if (!content.complete && content.mesh.split_count() == content.splits_in_whole)
+    throw InputError(fmt::format("{}: expected a whole file, got all {} splits but not all that follows (cells, the end mark)", path,
+                                 grouped(content.splits_in_whole)));
   if (!content.complete)
     throw InputError(fmt::format("{}: expected a whole progressive mesh, got {} of {} splits: a texture belongs to the finest level", path,
                                  grouped(content.mesh.split_count()), grouped(content.splits_in_whole)));

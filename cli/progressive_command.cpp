@@ -33,7 +33,7 @@ using validation::grouped;
 struct Options {
   std::string input, output, metric = "qem", collapse = "half";
   std::int64_t faces = 0;
-  bool faces_given = false, metric_given = false, collapse_given = false, no_cells = false;
+  bool faces_given = false, metric_given = false, collapse_given = false, no_cells = false, flip_v = false;
   CommonOptions common;
 };
 
@@ -72,6 +72,10 @@ int make_file(const Options& options, Console& console, CallFiles& files) {
   add_side_files(files, model);
   files.add_output(options.output, "-o");
   files.add_output(options.common.json, "--json");
+  if (options.flip_v) {
+    if (!model.mesh.has_uv) throw InputError(fmt::format("{}: --flip-v needs texture coordinates, and the model has none", options.input));
+    io::flip_v(model.mesh);
+  }
   const Mesh mesh = welded_by_position(model.mesh);
   progressive::ProgressiveResult made = naming_the_model(options.input, [&] {
     simplify::SimplifyOptions how;
@@ -127,6 +131,7 @@ int take_level(const Options& options, Console& console, CallFiles& files) {
   if (options.metric_given) throw UsageError("progressive: --metric is of making an .epm file, not of taking a level from one");
   if (options.collapse_given) throw UsageError("progressive: --collapse is of making an .epm file, not of taking a level from one");
   if (options.no_cells) throw UsageError("progressive: --no-cells is of making an .epm file, not of taking a level from one");
+  if (options.flip_v) throw UsageError("progressive: --flip-v is of making an .epm file, not of taking a level from one");
   if (options.output == "-") throw UsageError("progressive: a model may be several files: expected -o FILE.obj, .ply or .glb");
   const io::FileBytes file = io::read_file(options.input);
   progressive::EpmContent content = naming_the_model(options.input, [&] { return progressive::decode_epm(file.bytes()); });
@@ -207,6 +212,7 @@ Verb add_progressive(CLI::App& root) {
           ->check(CLI::IsMember({"half", "full"}));
   app->add_flag("--no-cells", options->no_cells,
                 "Store no cells of texture adaptation (a model with texture coordinates has them, 12 bytes a split)");
+  app->add_flag("--flip-v", options->flip_v, "The model's texture coordinates run from top to bottom against its format's convention");
   app->add_option("-o,--output", options->output, "Progressive mesh (.epm), or the level's model (.obj .ply .glb; without materials)")
       ->required()
       ->type_name("OUT")

@@ -241,6 +241,28 @@ TEST_CASE("adapt: --backend gl where there is no OpenGL is refused in words") {
   CHECK(!std::filesystem::exists(folder.path() / "gl.exr"));
 }
 
+TEST_CASE("progressive: --flip-v turns texture coordinates over, so that the texture is adapted as of a model that was right") {
+  const ScratchFolder folder;
+  const auto right = [](double s, double t) { return std::pair{s, t}; };
+  folder.file("sheet.obj", sheet_obj(8, right));
+  folder.file("turned.obj", sheet_obj(8, [](double s, double t) { return std::pair{s, 1 - t}; }));
+  const auto make = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "progressive");
+    const CommandResult result = run_etalon(arguments, {.folder = folder.path()});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+  };
+  make({"sheet.obj", "--faces", "60", "-o", "right.epm"});
+  make({"turned.obj", "--faces", "60", "-o", "as_it_is.epm"});
+  make({"turned.obj", "--faces", "60", "--flip-v", "-o", "flipped.epm"});
+  // Eighths: 1 - v is exact.
+  CHECK(read_text(folder.path() / "flipped.epm") == read_text(folder.path() / "right.epm"));
+  CHECK(read_text(folder.path() / "as_it_is.epm") != read_text(folder.path() / "right.epm"));
+  check_refused({"progressive", "right.epm", "--faces", "70", "--flip-v", "-o", "level.obj"}, 64, folder, "--flip-v is of making");
+  folder.file("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  check_refused({"progressive", "bare.obj", "--flip-v", "-o", "bare.epm"}, 4, folder, "--flip-v needs texture coordinates");
+}
+
 TEST_CASE("adapt: levels at both ends") {
   const ScratchFolder folder;
   make_sheet(folder, [](double s, double t) { return std::pair{s, t}; });
@@ -276,6 +298,10 @@ TEST_CASE("adapt: what is refused leaves nothing behind") {
   const std::string whole = read_text(folder.path() / "swirl.epm");
   folder.file("cut.epm", whole.substr(0, whole.size() * 3 / 4));
   check_refused({"adapt", "cut.epm", "--faces", "300", "--map", "level.exr"}, 4, folder, "whole");
+  folder.file("cut_in_splits.epm", whole.substr(0, whole.find("CELL") - 40));
+  check_refused({"adapt", "cut_in_splits.epm", "--faces", "300", "--map", "level.exr"}, 4, folder, "whole progressive mesh");
+  folder.file("cut_in_cells.epm", whole.substr(0, whole.rfind("CELL") + 40));
+  check_refused({"adapt", "cut_in_cells.epm", "--faces", "300", "--map", "level.exr"}, 4, folder, "splits but not all that follows (cells");
   REQUIRE(run_etalon({"make", "duck", "--faces", "2000", "-o", "duck.ply"}, {.folder = folder.path()}).exit_code == 0);
   REQUIRE(run_etalon({"progressive", "duck.ply", "--faces", "1000", "-o", "duck.epm"}, {.folder = folder.path()}).exit_code == 0);
   check_refused({"adapt", "duck.epm", "--faces", "1500", "--map", "level.exr"}, 4, folder, "texture coordinates");
