@@ -52,8 +52,11 @@ Image LevelImages::adapted(Image image, const std::string& what) {
 }
 
 Image LevelImages::map(int width, int height, ChannelType type, const std::string& what) {
-  if (!analytic) return adapted(adapt::identity_map(width, height, type), what);
-  return adapt::analytic_map(sequence, level, width, height, type, [&](int done, int total) { console.progress(what, done, total); });
+  Image by_splits = adapted(adapt::identity_map(width, height, type), what);
+  if (!analytic) return by_splits;
+  adapt::Gutter charts(borders, width, height);
+  charts.follow_borders(level);
+  return adapt::analytic_with_gutter(sequence, level, by_splits, charts, [&](int done, int total) { console.progress(what, done, total); });
 }
 
 ChannelType map_type_named(const std::string& name) {

@@ -21,7 +21,7 @@ struct LevelImages {
   Renderer& renderer;
   std::size_t level = 0;
   Filter filter = Filter::linear;
-  bool analytic = false;  ///< the exact chain of cells instead of a map adapted split by split
+  bool analytic = false;  ///< the exact chain of cells in charts instead of a map adapted split by split, which gives the gutter
   Console& console;
   /// One entry for each image that was adapted or followed: its size, what it cost, what the gutter holds.
   nlohmann::ordered_json images = nlohmann::ordered_json::array();

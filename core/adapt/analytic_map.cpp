@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/adapt/chain_index.h"
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 
 namespace etalon::adapt {
@@ -23,6 +24,17 @@ Image analytic_map(const AdaptSequence& sequence, std::size_t level, int width, 
     });
     if (progress) progress(begin + rows, height);
   }
+  return map;
+}
+
+Image analytic_with_gutter(const AdaptSequence& sequence, std::size_t level, const Image& adapted, const Gutter& gutter,
+                           const std::function<void(int, int)>& progress) {
+  ETALON_CHECK(gutter.level() == level && gutter.width() == adapted.width() && gutter.height() == adapted.height(),
+               "a gutter of the level and of the map's size");
+  Image map = analytic_map(sequence, level, adapted.width(), adapted.height(), adapted.format().type, progress);
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x)
+      if (!gutter.in_chart(x, y)) set_map_coordinate(map, x, y, map_coordinate(adapted, x, y));
   return map;
 }
 

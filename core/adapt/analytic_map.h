@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "core/adapt/adapt_sequence.h"
+#include "core/adapt/gutter.h"
 #include "core/adapt/map_format.h"
 
 namespace etalon::adapt {
@@ -14,5 +15,11 @@ namespace etalon::adapt {
 /// the calling thread; an exception of it stops the work. InputError for a type that identity_map() does not know.
 [[nodiscard]] Image analytic_map(const AdaptSequence& sequence, std::size_t level, int width, int height,
                                  ChannelType type = ChannelType::float32, const std::function<void(int done, int total)>& progress = {});
+
+/// The same in charts of the level; beside them, where the chain is not defined and linear lookups read all the same, what `adapted` holds: the
+/// identity map that adapt_map() took to `level` with a gutter. Of `adapted`'s size and format. `gutter`: at `level`, of that size
+/// (ETALON_CHECK).
+[[nodiscard]] Image analytic_with_gutter(const AdaptSequence& sequence, std::size_t level, const Image& adapted, const Gutter& gutter,
+                                         const std::function<void(int done, int total)>& progress = {});
 
 }  // namespace etalon::adapt

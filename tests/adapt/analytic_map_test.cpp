@@ -6,9 +6,11 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/adapt/adapt_map.h"
 #include "core/adapt/chain_index.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "raster/cpu_renderer.h"
 #include "tests/adapt/level_fixture.h"
 
 using namespace etalon;
@@ -99,4 +101,27 @@ TEST_CASE("analytic map: what the chain gives, in every format, the same bytes f
   }
   CHECK(analytic_map(sequence, sequence.size(), 64, 64) == identity_map(64, 64));
   CHECK_THROWS_AS((void)analytic_map(sequence, 0, 64, 64, ChannelType::srgb8), InputError);
+}
+
+TEST_CASE("analytic map with gutter: the chain in charts, beside their borders what the adapted map's gutter holds") {
+  constexpr int kSize = 128;
+  test::ModelLevels& head = test::head();
+  const ChartBorders borders(head.mesh);
+  Gutter gutter(borders, kSize, kSize);
+  raster::CpuRenderer renderer;
+  Image adapted = identity_map(kSize, kSize);
+  (void)adapt_map(renderer, head.sequence, head.sequence.size(), 0, adapted, {.filter = Filter::linear, .gutter = &gutter, .progress = {}});
+  const Image chain = analytic_map(head.sequence, 0, kSize, kSize), map = analytic_with_gutter(head.sequence, 0, adapted, gutter);
+  std::size_t in_charts = 0, moved_beside = 0;
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const Vec2d at = map_coordinate(map, x, y), by_chain = map_coordinate(chain, x, y), by_splits = map_coordinate(adapted, x, y);
+      const Vec2d expected = gutter.in_chart(x, y) ? by_chain : by_splits;
+      REQUIRE(at.x == expected.x);
+      REQUIRE(at.y == expected.y);
+      in_charts += gutter.in_chart(x, y) ? 1 : 0;
+      moved_beside += !gutter.in_chart(x, y) && (at.x != by_chain.x || at.y != by_chain.y) ? 1 : 0;
+    }
+  CHECK(in_charts > 0);
+  CHECK(moved_beside > 0);
 }

@@ -20,15 +20,6 @@ simplify::SimplifyOptions how(simplify::MetricName metric, std::size_t faces) {
   return options;
 }
 
-// The chain is defined in charts; beside them linear lookups read what the adapted map's gutter says.
-Image analytic_with_gutter(const adapt::AdaptSequence& sequence, std::size_t level, const Image& adapted, const adapt::Gutter& gutter) {
-  Image map = adapt::analytic_map(sequence, level, adapted.width(), adapted.height());
-  for (int y = 0; y < map.height(); ++y)
-    for (int x = 0; x < map.width(); ++x)
-      if (!gutter.in_chart(x, y)) adapt::set_map_coordinate(map, x, y, adapt::map_coordinate(adapted, x, y));
-  return map;
-}
-
 }  // namespace
 
 ChenLevels make_chen_levels(Renderer& renderer, const Mesh& mesh, const std::vector<const Image*>& textures,
@@ -60,7 +51,7 @@ ChenLevels make_chen_levels(Renderer& renderer, const Mesh& mesh, const std::vec
     }
     from = level.level;
     step(fmt::format("{} faces: rivals", level.mesh.face_count()));
-    level.analytic = std::make_shared<const Image>(analytic_with_gutter(result.sequence, level.level, map, map_gutter));
+    level.analytic = std::make_shared<const Image>(adapt::analytic_with_gutter(result.sequence, level.level, map, map_gutter));
     level.by_deviation = simplify::simplify_mesh(mesh, how(simplify::MetricName::aps, level.mesh.face_count())).mesh;
     std::vector<Image> rebakes;  // one a size
     for (const Image* texture : textures) {
