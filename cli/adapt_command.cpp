@@ -181,6 +181,8 @@ int run(const Options& options) {
         fmt::format("--format {} cannot name {} of the {} texels of {}x{}: detail is lost before anything is adapted; float32 and "
                     "unorm16 name all up to 8192",
                     options.format, grouped(unnamed), grouped(outputs.map.texel_count()), size.width, size.height));
+  const bool nothing = mesh.level() < sequence.size() && level.adaptations == 0;
+  if (nothing) print_warning("no collapse on the way has cells: nothing was adapted, textures and map are as on the finest level");
   for (const std::filesystem::path& path : written) console.line("wrote " + path.string());
   validation::RunInfo info = validation::current_run(options.common.start);
   info.paths = {options.input};
@@ -189,7 +191,7 @@ int run(const Options& options) {
   if (opened.renderer) info.device = opened.renderer->name();
   document["run"] = validation::to_json(info);
   write_document(options.common, document);
-  return reached && unnamed == 0 && !space.overlaps() ? kExitDone : kExitWarning;
+  return reached && !nothing && unnamed == 0 && !space.overlaps() ? kExitDone : kExitWarning;
 }
 
 }  // namespace

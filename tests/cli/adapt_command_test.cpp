@@ -171,7 +171,7 @@ TEST_CASE("adapt: several textures: adapted, through one map, or exact; each of 
   // float32: half of 2^-24 along either axis, of 300 texels.
   CHECK(exact["map_error_texels"]["max"] <= 300 * 0x1p-25 * 1.5);
   CHECK(exact["images"].size() == 1);
-  CHECK(exact["images"][0]["gutter_written"] > 0);
+  CHECK(exact["images"][0]["adaptations"] > 0);
 }
 
 TEST_CASE("adapt: texture coordinates outside of [0, 1], folded and overlapping ones are said; tiled ones refused") {
@@ -262,6 +262,15 @@ TEST_CASE("progressive: --flip-v turns texture coordinates over, so that the tex
   check_refused({"progressive", "right.epm", "--faces", "70", "--flip-v", "-o", "level.obj"}, 64, folder, "--flip-v is of making");
   folder.file("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   check_refused({"progressive", "bare.obj", "--flip-v", "-o", "bare.epm"}, 4, folder, "--flip-v needs texture coordinates");
+}
+
+TEST_CASE("adapt: where nothing can be adapted it is said") {
+  const ScratchFolder folder;
+  make_sheet(folder, [](double s, double) { return std::pair{s, 0.5}; });
+  const CommandResult result =
+      run_etalon({"adapt", "sheet.epm", "--faces", "200", "--map", "map.exr", "--size", "64"}, {.folder = folder.path()});
+  CHECK(result.exit_code == 1);
+  CHECK(result.err.find("nothing was adapted") != std::string::npos);
 }
 
 TEST_CASE("adapt: levels at both ends") {
