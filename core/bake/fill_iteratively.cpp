@@ -22,7 +22,7 @@ class IterativeFill {
     dirty_.assign(face_count(), 1);
   }
 
-  SurfaceFill run() {
+  SurfaceFill run(const FillObserver& observe) {
     bool changed = true;
     while (changed) {
       ++fill_.iterations;
@@ -30,7 +30,9 @@ class IterativeFill {
         for (std::size_t f = begin; f < end; ++f)
           if (dirty_[f]) dirty_[f] = transform(static_cast<std::uint32_t>(f));
       });
+      if (observe) observe(FillStage::transformed, fill_);
       changed = propagate();
+      if (observe) observe(FillStage::propagated, fill_);
     }
     return std::move(fill_);
   }
@@ -110,6 +112,6 @@ class IterativeFill {
 
 }  // namespace
 
-SurfaceFill fill_iteratively(const FillProblem& problem) { return IterativeFill(problem).run(); }
+SurfaceFill fill_iteratively(const FillProblem& problem, const FillObserver& observe) { return IterativeFill(problem).run(observe); }
 
 }  // namespace etalon::bake

@@ -42,10 +42,19 @@ struct FillProblem {
 /// Time: about 18 arcs a texel, and rings up to the nearest hit.
 [[nodiscard]] SurfaceFill fill_exactly(const FillProblem& problem);
 
+/// What the iteration has just done.
+enum class FillStage : std::uint8_t {
+  transformed,  ///< every triangle on its own: figures 6 and 8 of the paper
+  propagated,   ///< every node took the best of its texels: figure 7
+};
+/// Sees the fill as it stands; kNoGroup and kNoDistance where nothing was found yet.
+using FillObserver = std::function<void(FillStage stage, const SurfaceFill& now)>;
+
 /// The paper's iteration: in each triangle an 8-neighbour Euclidean distance transform [Danielsson 1980] by distances in space, each texel
 /// trying its neighbours' nearest feature; then every node takes the best that its texels found, and its texels become features with that distance
 /// for an offset; until nothing changes. A distance is the length of a path of the graph above, so never below the exact one.
-[[nodiscard]] SurfaceFill fill_iteratively(const FillProblem& problem);
+/// `observe` is called twice an iteration.
+[[nodiscard]] SurfaceFill fill_iteratively(const FillProblem& problem, const FillObserver& observe = {});
 
 /// Every texel's colour, by the fill. #T.
 [[nodiscard]] std::vector<Rgb8> filled_colors(const TexelColors& colors, const SurfaceFill& fill);

@@ -98,6 +98,27 @@ TEST_CASE("figures 6 to 8: the nearest of a texel of one triangle is in another,
   }
 }
 
+TEST_CASE("figures 6 to 8, stage by stage: alone, over the edge, further in") {
+  Mesh mesh = mesh_of({{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {8, 8, 0}}, {{0, 1, 2}, {3, 2, 1}});
+  const FillCase near(mesh, {8, 8}, {0});
+  const std::uint32_t t2 = near.nodes.texel(0, 8, 3, 3), t6 = near.nodes.texel(1, 8, 0, 0), t4 = near.nodes.texel(1, 8, 3, 3),
+                      edge = near.nodes.texel(1, 8, 4, 3);
+  const FillCase c(mesh, {8, 8}, {t2, t6});
+  std::vector<SurfaceFill> seen;
+  std::vector<FillStage> stages;
+  const SurfaceFill end = fill_iteratively(c.problem(), [&](FillStage stage, const SurfaceFill& now) {
+    stages.push_back(stage);
+    seen.push_back(now);
+  });
+  REQUIRE(seen.size() == 2 * static_cast<std::size_t>(end.iterations));
+  for (std::size_t n = 0; n < stages.size(); ++n) CHECK(stages[n] == (n % 2 == 0 ? FillStage::transformed : FillStage::propagated));
+  CHECK(seen[0].source[edge] == t6);
+  CHECK(seen[1].source[edge] == t2);
+  CHECK(seen[1].source[t4] == t6);
+  CHECK(seen[2].source[t4] == t2);
+  CHECK(seen.back().source == end.source);
+}
+
 TEST_CASE("distances are whole steps rounded up, and obey the triangle inequality") {
   CHECK(grid_distance({0, 0, 0}, {3, 4, 0}) == 5);
   CHECK(grid_distance({0, 0, 0}, {1, 1, 0}) == 2);
