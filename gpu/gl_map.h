@@ -15,6 +15,9 @@
 
 namespace etalon::gpu {
 
+/// Float32 texels below 2^-40 in magnitude enter a linearly filtered map as 0, as everywhere on the device (docs/contract.md#input): unlike the
+/// exact renderer's, those that no pass writes are read back as 0. Results below 2^-40 stay as they are in later passes, where the exact
+/// renderer reads 0: its lookups differ by less than 2^-40. Coordinates of an indexing map are none of these.
 class GlMap : public ResidentMap {
  public:
   /// `map` in a format that is stored as it is (stored_target_format(), not srgb8). The context must outlive it.

@@ -26,7 +26,7 @@ class RenderedMap : public ResidentMap {
       validate_groups(pass);
       const std::shared_ptr<const Image> unowned(std::shared_ptr<const Image>(), &map_);  // the list lives shorter than the map
       const std::vector<Image> drawn = renderer_.render(map_pass_list(pass, unowned, state_.filter), frame_);
-      copy_drawn(drawn[0], drawn[1]);
+      written_ += copy_drawn(drawn[0], drawn[1], map_);
     }
   }
 
@@ -34,18 +34,6 @@ class RenderedMap : public ResidentMap {
   std::uint64_t texels_written() const override { return written_; }
 
  private:
-  void copy_drawn(const Image& color, const Image& ids) {
-    const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(map_.format()));
-    const auto* id = ids.channels<std::uint32_t>(0, 0);
-    const std::byte* const from = color.bytes().data();
-    std::byte* const to = map_.bytes().data();
-    for (std::size_t n = 0; n < map_.texel_count(); ++n) {
-      if (id[n] == kNoTriangle) continue;
-      std::memcpy(to + n * texel_bytes, from + n * texel_bytes, texel_bytes);
-      ++written_;
-    }
-  }
-
   Renderer& renderer_;
   MapState state_;
   Image map_;
@@ -80,6 +68,20 @@ DrawList map_pass_list(const MapPass& pass, std::shared_ptr<const Image> map, Fi
                  .sampler = {filter, Wrap::clamp, Wrap::clamp},
                  .map_sampler = {}}};
   return list;
+}
+
+std::uint64_t copy_drawn(const Image& color, const Image& ids, Image& map) {
+  ETALON_CHECK(color.format() == map.format() && color.texel_count() == map.texel_count() && ids.texel_count() == map.texel_count(),
+               "drawings of the map's size and format");
+  const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(map.format()));
+  const auto* const id = ids.channels<std::uint32_t>(0, 0);
+  std::uint64_t written = 0;
+  for (std::size_t n = 0; n < map.texel_count(); ++n) {
+    if (id[n] == kNoTriangle) continue;
+    std::memcpy(map.bytes().data() + n * texel_bytes, color.bytes().data() + n * texel_bytes, texel_bytes);
+    ++written;
+  }
+  return written;
 }
 
 std::unique_ptr<ResidentMap> make_rendered_map(Renderer& renderer, Image map, const MapState& state) {

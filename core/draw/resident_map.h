@@ -56,6 +56,9 @@ class ResidentMap {
 /// The pass as a drawing: one draw that looks up `map`.
 [[nodiscard]] DrawList map_pass_list(const MapPass& pass, std::shared_ptr<const Image> map, Filter filter);
 
+/// Copies the texels of a drawn pass (colours; ids, R32ui, kNoTriangle where nothing was drawn) into the map. How many.
+std::uint64_t copy_drawn(const Image& color, const Image& ids, Image& map);
+
 /// By Renderer::render() and copies of the texels whose triangle id says that something was drawn: right for every renderer, fast for none.
 [[nodiscard]] std::unique_ptr<ResidentMap> make_rendered_map(Renderer& renderer, Image map, const MapState& state);
 

@@ -41,6 +41,15 @@ std::string Image::sha256() const {
   return hash.hex();
 }
 
+std::size_t differing_texels(const Image& a, const Image& b) {
+  ETALON_CHECK(a.format() == b.format() && a.width() == b.width() && a.height() == b.height(), "images of one size and format");
+  const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(a.format()));
+  std::size_t different = 0;
+  for (std::size_t at = 0; at < a.bytes().size(); at += texel_bytes)
+    different += std::memcmp(a.bytes().data() + at, b.bytes().data() + at, texel_bytes) != 0 ? 1 : 0;
+  return different;
+}
+
 Image flipped_rows(const Image& image) {
   if (image.empty()) return image;
   Image result(image.width(), image.height(), image.format());

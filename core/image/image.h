@@ -60,6 +60,9 @@ class Image {
   std::vector<std::byte> bytes_;
 };
 
+/// How many texels differ in a byte. ETALON_CHECKs that size and format are the same.
+[[nodiscard]] std::size_t differing_texels(const Image& a, const Image& b);
+
 /// The same image with its rows in reverse order; what file I/O does between top-down files and our v-up rows.
 [[nodiscard]] Image flipped_rows(const Image& image);
 

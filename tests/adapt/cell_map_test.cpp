@@ -14,13 +14,8 @@ using namespace etalon::adapt;
 
 namespace {
 
-struct Corners {
-  Vec2f uv[3];
-  Vec3f position[3];
-};
-
-std::vector<Corners> triangles_before(const CollapseRing& ring) {
-  std::vector<Corners> result;
+std::vector<test::TexturedCorners> triangles_before(const CollapseRing& ring) {
+  std::vector<test::TexturedCorners> result;
   for (std::size_t k = 0; k < ring.triangles_before(); ++k) {
     const std::size_t l = (k + 1) % ring.size();
     result.push_back({{ring.uv_of_u, ring.uv[k], ring.uv[l]}, {ring.position_of_u, ring.positions[k], ring.positions[l]}});
@@ -28,42 +23,11 @@ std::vector<Corners> triangles_before(const CollapseRing& ring) {
   return result;
 }
 
-std::vector<Corners> triangles_after(const CollapseRing& ring) {
-  std::vector<Corners> result;
+std::vector<test::TexturedCorners> triangles_after(const CollapseRing& ring) {
+  std::vector<test::TexturedCorners> result;
   for (std::size_t k = 1; k + 1 < ring.size(); ++k)
     result.push_back({{ring.uv[0], ring.uv[k], ring.uv[k + 1]}, {ring.positions[0], ring.positions[k], ring.positions[k + 1]}});
   return result;
-}
-
-struct Textured {
-  Vec3d point;
-  double stretch;  ///< model units a unit of texture, at most
-};
-
-// The point of the surface that has a texture coordinate.
-Textured textured_point(const std::vector<Corners>& surface, const Vec2d& p) {
-  double best = -1e9;
-  Textured result{};
-  for (const Corners& c : surface) {
-    const Vec2d a(c.uv[0]), ab = Vec2d(c.uv[1]) - a, ac = Vec2d(c.uv[2]) - a, ap = p - a;
-    const double area = ab.x * ac.y - ab.y * ac.x, v = (ap.x * ac.y - ap.y * ac.x) / area, w = (ab.x * ap.y - ab.y * ap.x) / area;
-    if (std::min({1 - v - w, v, w}) <= best) continue;
-    best = std::min({1 - v - w, v, w});
-    const Vec3d o = to_double(c.position[0]), x = difference_of(c.position[0], c.position[1]),
-                y = difference_of(c.position[0], c.position[2]);
-    const auto length = [](const Vec3d& d) { return std::sqrt(dot_product(d, d)); };
-    result = {o + v * x + w * y, 4 * (length(x) + length(y)) / area};
-  }
-  return result;
-}
-
-Vec2d random_point_of(Rng& rng, const CollapseRing& ring) {
-  const auto surface = triangles_after(ring);
-  const Corners& c = surface[rng.below(static_cast<std::uint32_t>(surface.size()))];
-  double v = rng.unit(), w = rng.unit();
-  if (v + w > 1) v = 1 - v, w = 1 - w;
-  const Vec2d a(c.uv[0]);
-  return a + v * (Vec2d(c.uv[1]) - a) + w * (Vec2d(c.uv[2]) - a);
 }
 
 }  // namespace
@@ -78,10 +42,11 @@ TEST_CASE("cell map: on a plane the adapted texture shows every point what it sh
     if (cells->u_kept < 1 || cells->crossings_kept < 1) continue;
     ++exact_rings;
     for (int i = 0; i < 8; ++i) {
-      const Vec2d after = random_point_of(rng, ring);
+      const Vec2d after = test::random_point_of(rng, triangles_after(ring));
       const auto before = map_point(*cells, AdaptDirection::to_before, after);
       REQUIRE(before);
-      const Textured shown = textured_point(triangles_after(ring), after), was = textured_point(triangles_before(ring), *before);
+      const test::TexturedPoint shown = test::textured_point(triangles_after(ring), after),
+                                was = test::textured_point(triangles_before(ring), *before);
       // Nodes are rounded to float32 below 1, by 2^-24 along either axis in either texture; what lies between them by no more.
       const double allowed = 4 * 0x1p-24 * (shown.stretch + was.stretch);
       CHECK(std::sqrt(squared_distance(shown.point, was.point)) <= allowed);
@@ -95,8 +60,8 @@ TEST_CASE("cell map: without adaptation the plane shows something else") {
   int different = 0;
   for (int n = 0; n < 100; ++n) {
     const CollapseRing ring = test::random_ring(rng, 6, true, false);
-    const Vec2d p = random_point_of(rng, ring);
-    const Textured shown = textured_point(triangles_after(ring), p), was = textured_point(triangles_before(ring), p);
+    const Vec2d p = test::random_point_of(rng, triangles_after(ring));
+    const test::TexturedPoint shown = test::textured_point(triangles_after(ring), p), was = test::textured_point(triangles_before(ring), p);
     different += std::sqrt(squared_distance(shown.point, was.point)) > 0.01 ? 1 : 0;
   }
   CHECK(different > 50);
@@ -116,7 +81,7 @@ TEST_CASE("cell map: down and up again") {
       thinnest = std::min({thinnest, doubled_area(a.before, b.before, c.before), doubled_area(a.after, b.after, c.after)});
     }
     for (int i = 0; i < 8; ++i) {
-      const Vec2d p = random_point_of(rng, ring);
+      const Vec2d p = test::random_point_of(rng, triangles_after(ring));
       const auto before = map_point(*cells, AdaptDirection::to_before, p);
       REQUIRE(before);
       const auto back = map_point(*cells, AdaptDirection::to_after, *before);

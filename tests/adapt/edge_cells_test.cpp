@@ -17,23 +17,18 @@ using namespace etalon::adapt;
 
 namespace {
 
-struct Corners {
-  Vec2f uv[3];
-  Vec3f position[3];
-};
-
-std::vector<Corners> surface_before(const EdgeRing& ring) {
+std::vector<test::TexturedCorners> surface_before(const EdgeRing& ring) {
   const auto uv = [&](std::uint16_t n) { return n == kNodeU ? ring.uv_of_u : n == kNodeV ? ring.uv_of_v : ring.uv[n - kFirstRingNode]; };
   const auto at = [&](std::uint16_t n) {
     return n == kNodeU ? ring.position_of_u : n == kNodeV ? ring.position_of_v : ring.positions[n - kFirstRingNode];
   };
-  std::vector<Corners> result;
+  std::vector<test::TexturedCorners> result;
   for (const auto& [a, b, c] : triangles_before(ring)) result.push_back({{uv(a), uv(b), uv(c)}, {at(a), at(b), at(c)}});
   return result;
 }
 
-std::vector<Corners> surface_after(const EdgeRing& ring) {
-  std::vector<Corners> result;
+std::vector<test::TexturedCorners> surface_after(const EdgeRing& ring) {
+  std::vector<test::TexturedCorners> result;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const std::size_t l = (k + 1) % ring.size();
     result.push_back({{ring.uv_of_w, ring.uv[k], ring.uv[l]}, {ring.position_of_w, ring.positions[k], ring.positions[l]}});
@@ -41,38 +36,10 @@ std::vector<Corners> surface_after(const EdgeRing& ring) {
   return result;
 }
 
-double doubled_area_of(const std::vector<Corners>& surface) {
+double doubled_area_of(const std::vector<test::TexturedCorners>& surface) {
   double sum = 0;
-  for (const Corners& c : surface) sum += doubled_area(c.uv[0], c.uv[1], c.uv[2]);
+  for (const test::TexturedCorners& c : surface) sum += doubled_area(c.uv[0], c.uv[1], c.uv[2]);
   return sum;
-}
-
-struct Textured {
-  Vec3d point;
-  double stretch;  ///< model units a unit of texture, at most
-};
-
-Textured textured_point(const std::vector<Corners>& surface, const Vec2d& p) {
-  double best = -1e9;
-  Textured result{};
-  for (const Corners& c : surface) {
-    const Vec2d a(c.uv[0]), ab = Vec2d(c.uv[1]) - a, ac = Vec2d(c.uv[2]) - a, ap = p - a;
-    const double area = ab.x * ac.y - ab.y * ac.x, v = (ap.x * ac.y - ap.y * ac.x) / area, w = (ab.x * ap.y - ab.y * ap.x) / area;
-    if (std::min({1 - v - w, v, w}) <= best) continue;
-    best = std::min({1 - v - w, v, w});
-    const Vec3d x = difference_of(c.position[0], c.position[1]), y = difference_of(c.position[0], c.position[2]);
-    const auto length = [](const Vec3d& d) { return std::sqrt(dot_product(d, d)); };
-    result = {to_double(c.position[0]) + v * x + w * y, 4 * (length(x) + length(y)) / area};
-  }
-  return result;
-}
-
-Vec2d random_point_of(Rng& rng, const std::vector<Corners>& surface) {
-  const Corners& c = surface[rng.below(surface.size())];
-  double v = rng.unit(), w = rng.unit();
-  if (v + w > 1) v = 1 - v, w = 1 - w;
-  const Vec2d a(c.uv[0]);
-  return a + v * (Vec2d(c.uv[1]) - a) + w * (Vec2d(c.uv[2]) - a);
 }
 
 void require_partition(const EdgeRing& ring, const RingCells& cells) {
@@ -178,12 +145,12 @@ TEST_CASE("edge cells: on a plane the adapted texture shows every point what it 
     REQUIRE(cells);
     if (cells->u_kept < 1 || cells->crossings_kept < 1 || cells->plane != OverlayPlane::edge_space) continue;
     ++exact_rings;
-    const std::vector<Corners> before = surface_before(ring), after = surface_after(ring);
+    const std::vector<test::TexturedCorners> before = surface_before(ring), after = surface_after(ring);
     for (int i = 0; i < 8; ++i) {
-      const Vec2d p = random_point_of(rng, after);
+      const Vec2d p = test::random_point_of(rng, after);
       const auto q = map_point(*cells, AdaptDirection::to_before, p);
       REQUIRE(q);
-      const Textured shown = textured_point(after, p), was = textured_point(before, *q);
+      const test::TexturedPoint shown = test::textured_point(after, p), was = test::textured_point(before, *q);
       // Nodes are rounded to float32 below 1, by 2^-24 along either axis in either texture; what lies between them by no more.
       CHECK(std::sqrt(squared_distance(shown.point, was.point)) <= 4 * 0x1p-24 * (shown.stretch + was.stretch));
     }

@@ -1,7 +1,10 @@
 #include "tests/adapt/ring_fixture.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/math/nearest_point.h"
+#include "core/mesh/exact_orientation.h"
 #include "core/procedural/smooth_math.h"
 
 namespace etalon::test {
@@ -70,6 +73,29 @@ adapt::CollapseRing random_ring(Rng& rng, int corners, bool planar, bool on_curv
   ring.position_of_u = lift(u);
   for (const Vec2f& p : plane) ring.positions.push_back(lift(p));
   return ring;
+}
+
+TexturedPoint textured_point(const std::vector<TexturedCorners>& surface, const Vec2d& p) {
+  double best = -1e9;
+  TexturedPoint result{};
+  for (const TexturedCorners& c : surface) {
+    const Vec2d a(c.uv[0]), ab = Vec2d(c.uv[1]) - a, ac = Vec2d(c.uv[2]) - a, ap = p - a;
+    const double area = ab.x * ac.y - ab.y * ac.x, v = (ap.x * ac.y - ap.y * ac.x) / area, w = (ab.x * ap.y - ab.y * ap.x) / area;
+    if (std::min({1 - v - w, v, w}) <= best) continue;
+    best = std::min({1 - v - w, v, w});
+    const Vec3d x = difference_of(c.position[0], c.position[1]), y = difference_of(c.position[0], c.position[2]);
+    const auto length = [](const Vec3d& d) { return std::sqrt(dot_product(d, d)); };
+    result = {to_double(c.position[0]) + v * x + w * y, 4 * (length(x) + length(y)) / area};
+  }
+  return result;
+}
+
+Vec2d random_point_of(Rng& rng, const std::vector<TexturedCorners>& surface) {
+  const TexturedCorners& c = surface[rng.below(surface.size())];
+  double v = rng.unit(), w = rng.unit();
+  if (v + w > 1) v = 1 - v, w = 1 - w;
+  const Vec2d a(c.uv[0]);
+  return a + v * (Vec2d(c.uv[1]) - a) + w * (Vec2d(c.uv[2]) - a);
 }
 
 }  // namespace etalon::test

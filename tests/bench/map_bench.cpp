@@ -1,11 +1,14 @@
 #include "tests/bench/map_bench.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "raster/cpu_renderer.h"
 
 namespace etalon::bench {
+
+double differing_share(const Image& a, const Image& b) {
+  return static_cast<double>(differing_texels(a, b)) / static_cast<double>(a.texel_count());
+}
 
 MapBench::MapBench(const MapWork& work, gpu::Context* context) : context_(context) {
   const MapState state{work.filter, {}};
@@ -22,12 +25,7 @@ MapBench::MapBench(const MapWork& work, gpu::Context* context) : context_(contex
   if (context == nullptr) return;
   rival_ = std::make_unique<gpu::GlMap>(*context, gpu::GlPipeline(*context).limits(), work.map, state);
   apply_rival(work.packed);
-  const Image a = ours_->read_back(), b = rival_->read_back();
-  const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(a.format()));
-  std::size_t different = 0;
-  for (std::size_t n = 0; n < a.texel_count(); ++n)
-    different += std::memcmp(a.bytes().data() + n * texel_bytes, b.bytes().data() + n * texel_bytes, texel_bytes) != 0 ? 1 : 0;
-  differing_share_ = static_cast<double>(different) / static_cast<double>(a.texel_count());
+  differing_share_ = bench::differing_share(ours_->read_back(), rival_->read_back());
 }
 
 void MapBench::apply_ours(const std::vector<MapPass>& passes) { ours_->apply(passes); }

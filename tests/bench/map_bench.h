@@ -10,6 +10,9 @@
 
 namespace etalon::bench {
 
+/// Of their texels.
+[[nodiscard]] double differing_share(const Image& a, const Image& b);
+
 class MapBench {
  public:
   /// `context`: of the rival; none: without it.

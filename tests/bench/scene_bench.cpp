@@ -53,14 +53,6 @@ void render_at(raster::SimdLevel level, const BenchScene& scene, std::vector<Ima
   benchmark::DoNotOptimize(images.data());
 }
 
-double differing_share(const Image& a, const Image& b) {
-  const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(a.format()));
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < a.texel_count(); ++i)
-    different += std::memcmp(a.bytes().data() + i * texel_bytes, b.bytes().data() + i * texel_bytes, texel_bytes) != 0 ? 1 : 0;
-  return static_cast<double>(different) / static_cast<double>(a.texel_count());
-}
-
 /// What the device's maps hold: the source where no fan is; ours has the clear there.
 Image drawn_over_source(const BenchScene& scene) {
   Frame with_ids = scene.frame;

@@ -44,13 +44,7 @@ GlRenderer* exact_or_skip(const std::string& test_case) {
 // Per target: texels whose bytes differ.
 std::vector<std::size_t> differing(const std::vector<Image>& a, const std::vector<Image>& b) {
   std::vector<std::size_t> counts;
-  for (std::size_t n = 0; n < a.size(); ++n) {
-    std::size_t count = 0;
-    const auto size = static_cast<std::size_t>(bytes_per_texel(a[n].format()));
-    for (int y = 0; y < a[n].height(); ++y)
-      for (int x = 0; x < a[n].width(); ++x) count += std::equal(a[n].texel(x, y), a[n].texel(x, y) + size, b[n].texel(x, y)) ? 0 : 1;
-    counts.push_back(count);
-  }
+  for (std::size_t n = 0; n < a.size(); ++n) counts.push_back(differing_texels(a[n], b[n]));
   return counts;
 }
 

@@ -64,13 +64,6 @@ std::uint64_t uncovered(const Image& a, const Image& b) {
   return count;
 }
 
-void copy_covered(const std::vector<Image>& drawn, Image& map) {
-  const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(map.format()));
-  const auto* const id = drawn[1].channels<std::uint32_t>(0, 0);
-  for (std::size_t n = 0; n < map.texel_count(); ++n)
-    if (id[n] != kNoTriangle) std::memcpy(map.bytes().data() + n * texel_bytes, drawn[0].bytes().data() + n * texel_bytes, texel_bytes);
-}
-
 /// The worst class of each texel over all passes.
 void keep_worst(Image& classes, const Image& pass) {
   auto* const kept = classes.channels<std::uint8_t>(0, 0);
@@ -117,7 +110,7 @@ class AdaptCase {
     const bool same_map = exact_map_ == device_map_;
     const std::vector<Image> from_exact = do_from(item, pass, exact_map_, true);
     const std::vector<Image> own = same_map ? from_exact : do_from(item, pass, device_map_, false);
-    if (!own.empty()) copy_covered(own, device_map_);
+    if (!own.empty()) copy_drawn(own[0], own[1], device_map_);
   }
 
   /// Both sides draw the pass from `map`, which becomes the exact one's where `advance`. What the device has drawn.
@@ -128,8 +121,7 @@ class AdaptCase {
     pair.cpu = exact_.render(list, frame_);
     item.cpu_seconds += seconds_since(cpu_start);
     if (advance) {
-      copy_covered(pair.cpu, map);
-      item.covered += pair.cpu[1].texel_count() - uncovered(pair.cpu[1], pair.cpu[1]);
+      item.covered += copy_drawn(pair.cpu[0], pair.cpu[1], map);
     }
     if (device_.renderer == nullptr) return {};
     const auto gl_start = Clock::now();
@@ -172,11 +164,7 @@ class AdaptCase {
     const Image kept = resident->read_back();
     item.gl_seconds += seconds_since(gl_start);
     start_ = kept;
-    const auto texel_bytes = static_cast<std::size_t>(bytes_per_texel(kept.format()));
-    std::uint64_t different = 0;
-    for (std::size_t n = 0; n < kept.texel_count(); ++n)
-      different +=
-          std::memcmp(kept.bytes().data() + n * texel_bytes, device_map_.bytes().data() + n * texel_bytes, texel_bytes) != 0 ? 1 : 0;
+    const std::uint64_t different = differing_texels(kept, device_map_);
     item.tally.texels += different, item.tally.unexplained += different;
     if (different > 0)
       item.diagnosis += fmt::format("{} texels of the map that stays on the device are not what its drawings gave.", different);
