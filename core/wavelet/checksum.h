@@ -1,0 +1,27 @@
+// CRC-32 of IEEE 802.3, a byte at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace etalon::wavelet {
+
+class Crc32 {
+ public:
+  void add(std::uint8_t byte) { state_ = kTable[(state_ ^ byte) & 0xFF] ^ (state_ >> 8); }
+  [[nodiscard]] std::uint32_t value() const { return ~state_; }
+
+ private:
+  static constexpr std::array<std::uint32_t, 256> kTable = [] {
+    std::array<std::uint32_t, 256> table{};
+    for (std::uint32_t i = 0; i < 256; ++i) {
+      std::uint32_t c = i;
+      for (int k = 0; k < 8; ++k) c = (c & 1) != 0 ? 0xEDB88320u ^ (c >> 1) : c >> 1;
+      table[i] = c;
+    }
+    return table;
+  }();
+  std::uint32_t state_ = 0xFFFFFFFFu;
+};
+
+}  // namespace etalon::wavelet
