@@ -1,8 +1,6 @@
 #include "cli/gl_options.h"
 
-#include <fmt/format.h>
-
-#include "cli/usage_error.h"
+#include "core/base/error.h"
 
 #ifdef ETALON_HAVE_GPU
 #include "gpu/gl_renderer.h"
@@ -11,7 +9,8 @@
 namespace etalon::cli {
 
 void add_gl_options(CLI::App& verb, GlOptions& options) {
-  verb.add_option("--context", options.context, "Where the OpenGL context comes from: auto, osmesa (egl: not in this version)")
+  verb.add_option("--context", options.context,
+                  "Where the OpenGL context comes from: auto (OSMesa, else EGL), osmesa, egl (a GPU, else Mesa's software rasterizer)")
       ->type_name("KIND")
       ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
   verb.add_option("--driver", options.driver, "Mesa's rasterizer: llvmpipe, softpipe, default")
@@ -33,6 +32,12 @@ gpu::Driver driver_of(const std::string& name) {
   return gpu::Driver::device_default;
 }
 
+gpu::Platform platform_of(const std::string& name) {
+  if (name == "egl") return gpu::Platform::egl;
+  if (name == "osmesa") return gpu::Platform::osmesa;
+  return gpu::Platform::automatic;
+}
+
 // Bounds were derived for llvmpipe only; any other device gets their shape with room, and is not called proven.
 validation::DeviceModel model_of(const gpu::DeviceInfo& device) {
   if (device.renderer.rfind("llvmpipe", 0) == 0) return validation::llvmpipe_model();
@@ -42,12 +47,13 @@ validation::DeviceModel model_of(const gpu::DeviceInfo& device) {
 }  // namespace
 
 OpenedDevice open_device(const GlOptions& options, int threads) {
-  if (options.context == "egl") throw UsageError("--context: egl is not in this version, use osmesa");
   OpenedDevice opened;
   try {
-    auto renderer = std::make_unique<gpu::GlRenderer>(
-        gpu::ContextOptions{.driver = driver_of(options.driver), .threads = threads > 0 ? threads : -1, .library_path = ""},
-        options.shader == "exact" ? gpu::ShaderMode::exact : gpu::ShaderMode::native);
+    auto renderer = std::make_unique<gpu::GlRenderer>(gpu::ContextOptions{.platform = platform_of(options.context),
+                                                                          .driver = driver_of(options.driver),
+                                                                          .threads = threads > 0 ? threads : -1,
+                                                                          .library_path = ""},
+                                                      options.shader == "exact" ? gpu::ShaderMode::exact : gpu::ShaderMode::native);
     // The exact shader owes the contract itself: no bound is lent to it.
     opened.model = options.shader == "exact" ? validation::contract_model() : model_of(renderer->device());
     opened.renderer = std::move(renderer);
@@ -59,8 +65,7 @@ OpenedDevice open_device(const GlOptions& options, int threads) {
 
 #else
 
-OpenedDevice open_device(const GlOptions& options, int) {
-  if (options.context == "egl") throw UsageError("--context: egl is not in this version, use osmesa");
+OpenedDevice open_device(const GlOptions&, int) {
   OpenedDevice opened;
   opened.unavailable = "this build has no OpenGL side (ETALON_GPU=OFF)";
   return opened;

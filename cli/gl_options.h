@@ -26,7 +26,7 @@ struct OpenedDevice {
   std::string unavailable;  ///< one line; empty where renderer is set
 };
 
-/// Never throws for a missing device; UsageError for --context egl, which this version does not have.
+/// Never throws for a missing device.
 /// `threads`: of the device, 0 for its own choice.
 [[nodiscard]] OpenedDevice open_device(const GlOptions& options, int threads);
 

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "core/base/error.h"
+#include "gpu/egl_context.h"
 #include "gpu/osmesa_context.h"
 
 namespace etalon::gpu {
@@ -25,7 +26,10 @@ class DriverChoice {
           fmt::format("OpenGL: Mesa's driver is chosen once per process and is {} already; {} needs a process of its own",
                       to_string(*chosen_), to_string(options.driver)));
     }
-    if (options.driver != Driver::device_default) setenv("GALLIUM_DRIVER", to_string(options.driver).c_str(), 1);
+    if (options.driver != Driver::device_default) {
+      setenv("GALLIUM_DRIVER", to_string(options.driver).c_str(), 1);
+      setenv("LIBGL_ALWAYS_SOFTWARE", "true", 1);  // EGL's surfaceless platform would take a GPU
+    }
     // Mesa 22.3's OSMesa crashes on a name it does not know.
     const char* driver = std::getenv("GALLIUM_DRIVER");
     if (driver != nullptr && *driver != '\0' && std::string_view(driver) != "llvmpipe" && std::string_view(driver) != "softpipe") {
@@ -36,9 +40,16 @@ class DriverChoice {
     setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
   }
 
-  void keep(const Context& context) {
+  /// The platform of the process, or nothing yet.
+  std::optional<Platform> platform() {
+    const std::lock_guard lock(mutex_);
+    return platform_;
+  }
+
+  void keep(const Context& context, Platform platform) {
     const std::lock_guard lock(mutex_);
     if (chosen_) return;
+    platform_ = platform;
     const std::string renderer = reinterpret_cast<const char*>(context.gl().get_string(gl::kRenderer));
     chosen_ = Driver::device_default;  // another driver, a GPU's: neither of Mesa's two can be had any more
     if (renderer.rfind("llvmpipe", 0) == 0) chosen_ = Driver::llvmpipe;
@@ -48,6 +59,7 @@ class DriverChoice {
  private:
   std::mutex mutex_;
   std::optional<Driver> chosen_;  ///< set once a context has been made
+  std::optional<Platform> platform_;
 };
 
 DriverChoice& driver_choice() {
@@ -69,10 +81,36 @@ void Context::load(const std::function<gl::ProcAddress(const char*)>& get_proc_a
 }
 
 std::unique_ptr<Context> make_context(const ContextOptions& options) {
+  const std::optional<Platform> before = driver_choice().platform();
+  if (before && options.platform != Platform::automatic && options.platform != *before)
+    throw UnavailableError(fmt::format("OpenGL: the platform is chosen once per process and is {} already; {} needs a process of its own",
+                                       to_string(*before), to_string(options.platform)));
   driver_choice().make(options);
-  std::unique_ptr<Context> context = make_osmesa_context(options.library_path);
-  driver_choice().keep(*context);
-  return context;
+  const auto made = [](std::unique_ptr<Context> context, Platform platform) {
+    driver_choice().keep(*context, platform);
+    return context;
+  };
+  const Platform platform = before.value_or(options.platform);
+  if (platform == Platform::egl) return made(make_egl_context(options), Platform::egl);
+  try {
+    return made(make_osmesa_context(options.library_path), Platform::osmesa);
+  } catch (const UnavailableError& no_osmesa) {
+    if (platform == Platform::osmesa) throw;
+    try {
+      return made(make_egl_context(options), Platform::egl);
+    } catch (const UnavailableError&) {
+      throw no_osmesa;
+    }
+  }
+}
+
+std::string to_string(Platform platform) {
+  switch (platform) {
+    case Platform::automatic: return "auto";
+    case Platform::osmesa: return "osmesa";
+    case Platform::egl: return "egl";
+  }
+  return "?";
 }
 
 std::string to_string(Driver driver) {

@@ -1,5 +1,5 @@
 // An OpenGL 3.3 core context without a window. Every GL function comes from the context, none from the linker.
-// OSMesa is loaded at run time; where it is missing make_context() says so and the rest of etalon works on.
+// OSMesa and EGL are loaded at run time; where they are missing make_context() says so and the rest of etalon works on.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,22 @@
 namespace etalon::gpu {
 
 /// The kinds of context; each is one .cpp file that implements Context.
-enum class Platform : std::uint8_t { osmesa };
+enum class Platform : std::uint8_t {
+  automatic,  ///< OSMesa; where that gives no context, EGL
+  osmesa,
+  egl,  ///< without a surface: a GPU where there is one, else Mesa's software rasterizer
+};
 
-/// Mesa's software rasterizers. Mesa reads its choice once per process, at the first context.
+/// Mesa's software rasterizers; device_default: what the platform gives. Mesa reads its choice once per process, at the first context.
 enum class Driver : std::uint8_t { device_default, llvmpipe, softpipe };
 
 struct ContextOptions {
-  Platform platform = Platform::osmesa;
+  Platform platform = Platform::automatic;
   Driver driver = Driver::device_default;
   /// llvmpipe's worker threads, 0 = draw in the calling thread, -1 = Mesa's choice; images do not depend on it.
   /// Like the driver it counts for the first context of the process only, and is ignored after that.
   int threads = -1;
-  std::string library_path;  ///< empty: libOSMesa.so.8, .so.6, .so in this order
+  std::string library_path;  ///< empty: libOSMesa.so.8, .so.6, .so; libEGL.so.1, .so in this order; not with Platform::automatic
 };
 
 /// A context; not thread-safe: one thread at a time may use it, after make_current().
@@ -52,11 +56,13 @@ class Context {
 };
 
 /// A new 3.3 core context, current on the calling thread.
-/// Sets the environment variables GALLIUM_DRIVER, LP_NUM_THREADS (as asked) and MESA_SHADER_CACHE_DISABLE (so that nothing is
-/// written to the user's home) before the first context; call it before other threads read the environment.
-/// UnavailableError, one line: the library is missing or too old, it has no 3.3 core, or another driver was chosen earlier in this process.
+/// Sets the environment variables GALLIUM_DRIVER, LIBGL_ALWAYS_SOFTWARE, LP_NUM_THREADS (as asked) and MESA_SHADER_CACHE_DISABLE (so that
+/// nothing is written to the user's home) before the first context; call it before other threads read the environment.
+/// UnavailableError, one line: the library is missing or too old, it has no 3.3 core, or another driver or platform was chosen earlier in
+/// this process (the two platforms' libraries share Mesa's dispatch tables: contexts of both in one thread would draw into each other).
 [[nodiscard]] std::unique_ptr<Context> make_context(const ContextOptions& options = {});
 
+[[nodiscard]] std::string to_string(Platform platform);
 [[nodiscard]] std::string to_string(Driver driver);
 
 }  // namespace etalon::gpu

@@ -8,7 +8,7 @@
 
 namespace etalon::gpu {
 
-/// `library_path` as in ContextOptions. The library stays loaded until the process ends: its worker threads do too.
+/// `library_path` as in ContextOptions.
 [[nodiscard]] std::unique_ptr<Context> make_osmesa_context(const std::string& library_path);
 
 }  // namespace etalon::gpu

@@ -62,6 +62,21 @@ TEST_CASE("verify without OpenGL says why, draws what it can, and exits with 1")
   CHECK(render.error_lines().size() == 1);
 }
 
+TEST_CASE("--context egl: the same llvmpipe as by OSMesa, the same bytes") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "swirl", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code == 0);
+  std::vector<std::string> bytes;
+  for (const char* context : {"osmesa", "egl"}) {
+    const CommandResult result = run_etalon({"render", "swirl.obj", "--backend", "gl", "--driver", "llvmpipe", "--context", context,
+                                             "--filter", "linear", "--size", "300", "-o", "swirl.exr"},
+                                            {.folder = folder.path()});
+    if (result.exit_code == 1) return report_skip("--context egl", result.err);
+    REQUIRE(result.exit_code == 0);
+    bytes.push_back(read_text(folder.path() / "swirl.exr"));
+  }
+  CHECK(bytes[0] == bytes[1]);
+}
+
 TEST_CASE("--shader exact: every texel identical, no bound lent; the report names the mode") {
   const ScratchFolder folder;
   folder.file("square.obj", square_obj());

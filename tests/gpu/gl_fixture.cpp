@@ -6,6 +6,10 @@
 #include "core/base/error.h"
 #include "tests/support/skip.h"
 
+#ifndef ETALON_TEST_PLATFORM
+#define ETALON_TEST_PLATFORM osmesa
+#endif
+
 namespace etalon::gpu::test {
 
 namespace {
@@ -16,7 +20,7 @@ struct SharedRenderer {
 
   SharedRenderer() {
     try {
-      renderer = std::make_unique<GlRenderer>(ContextOptions{.driver = Driver::llvmpipe});
+      renderer = std::make_unique<GlRenderer>(ContextOptions{.platform = Platform::ETALON_TEST_PLATFORM, .driver = Driver::llvmpipe});
     } catch (const UnavailableError& error) {
       reason = error.what();
     }

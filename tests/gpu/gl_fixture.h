@@ -13,7 +13,7 @@
 
 namespace etalon::gpu::test {
 
-/// The process's llvmpipe renderer; nullptr, after a reported skip, where OpenGL is not to be had.
+/// The process's llvmpipe renderer, from OSMesa or (suite gpu_egl) EGL; nullptr, after a reported skip, where OpenGL is not to be had.
 [[nodiscard]] GlRenderer* renderer_or_skip(const std::string& test_case);
 
 /// A frame with the device's own state, one target unless more are added.
