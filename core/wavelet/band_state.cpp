@@ -7,9 +7,6 @@
 namespace etalon::wavelet {
 namespace {
 
-// A refinement of the plane 2^p is worth less per bit than finding what is above 2^p, and more than finding what is above 2^(p−1).
-constexpr double kRefinementWorth = 0.72;
-
 int exponent_of(double x) {
   int exponent = 0;
   std::frexp(x, &exponent);
@@ -110,14 +107,11 @@ std::vector<Pass> make_passes(const std::vector<BandState>& bands) {
   };
   std::vector<Keyed> keyed;
   for (std::size_t b = 0; b < bands.size(); ++b) {
-    const auto add = [&](double worth, int plane, bool refines) {
-      int exponent = 0;
-      const double mantissa = std::frexp(worth, &exponent);
-      keyed.push_back({exponent + plane, mantissa, {static_cast<std::uint32_t>(b), static_cast<std::int16_t>(plane), refines}});
-    };
+    int exponent = 0;
+    const double mantissa = std::frexp(bands[b].gain, &exponent);
     for (int plane = bands[b].first_plane; plane >= bands[b].last_plane; --plane) {
-      add(bands[b].gain, plane, false);
-      add(bands[b].gain * kRefinementWorth, plane, true);
+      for (const bool refines : {false, true})
+        keyed.push_back({exponent + plane, mantissa, {static_cast<std::uint32_t>(b), static_cast<std::int16_t>(plane), refines}});
     }
   }
   std::ranges::sort(keyed, [](const Keyed& a, const Keyed& b) {

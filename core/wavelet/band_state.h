@@ -76,7 +76,8 @@ struct BandState {
 [[nodiscard]] std::vector<BandState> make_band_states(const std::vector<Subband>& bands, const std::vector<double>& gains, int channels,
                                                       int top_exponent, const Delays& delays);
 
-/// The passes of a stream in their order: by the distortion that a unit of the plane stands for.
+/// The passes of a stream in their order: by the distortion gain·2^plane that a unit of the plane stands for; of equal ones those that find what
+/// is significant before those that refine what was.
 struct Pass {
   std::uint32_t band;
   std::int16_t plane;

@@ -12,7 +12,7 @@ namespace {
 
 // What is left of a coefficient below its lowest known bit 2^q is taken to be this share of 2^q: a little under the middle, as small values are
 // more frequent than large ones.
-constexpr std::uint32_t kRest64ths = 27;
+constexpr std::uint32_t kRestEighths = 3;
 
 template <class T, class Value>
 std::vector<Plane<T>> known_planes(const TextureHeader& header, const std::vector<BandState>& states, const Value& value) {
@@ -37,7 +37,7 @@ std::vector<Plane<T>> known_planes(const TextureHeader& header, const std::vecto
 Image reconstruct(const TextureHeader& header, const std::vector<BandState>& states) {
   if (header.kernel == Kernel::reversible_5_3) {
     auto planes = known_planes<std::int32_t>(header, states, [](std::uint32_t magnitude, int lowest, bool negative, double) {
-      const auto rest = static_cast<std::uint32_t>((std::uint64_t{kRest64ths} << lowest) >> 6);
+      const auto rest = static_cast<std::uint32_t>((std::uint64_t{kRestEighths} << lowest) >> 3);
       const auto v = static_cast<std::int32_t>(magnitude + rest);
       return negative ? -v : v;
     });
@@ -45,7 +45,7 @@ Image reconstruct(const TextureHeader& header, const std::vector<BandState>& sta
     return reversible_image(planes, header.format);
   }
   auto planes = known_planes<double>(header, states, [](std::uint32_t magnitude, int lowest, bool negative, double step) {
-    const double v = (static_cast<double>(magnitude) + static_cast<double>(std::uint64_t{kRest64ths} << lowest) / 64.0) * step;
+    const double v = (static_cast<double>(magnitude) + static_cast<double>(std::uint64_t{kRestEighths} << lowest) / 8.0) * step;
     return negative ? -v : v;
   });
   for (Plane<double>& plane : planes) inverse(plane, header.levels);

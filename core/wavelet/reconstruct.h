@@ -9,7 +9,7 @@
 
 namespace etalon::wavelet {
 
-/// Every coefficient is taken at 27/64 of the interval it is known to lie in (at its value where all its bits are known, 5/3), those not yet
+/// Every coefficient is taken at 3/8 of the interval it is known to lie in (at its value where all its bits are known, 5/3), those not yet
 /// significant at 0; then the inverse transforms.
 [[nodiscard]] Image reconstruct(const TextureHeader& header, const std::vector<BandState>& states);
 
