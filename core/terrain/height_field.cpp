@@ -59,7 +59,7 @@ std::int32_t in_units(double metres, double unit) {
   return static_cast<std::int32_t>(units);
 }
 
-bool is_positive(double x) { return x > 0 && std::isfinite(x); }
+bool is_step(double x) { return x >= 1 / kMaxStep && x <= kMaxStep; }
 
 void check_options(const Image& dem, const DemOptions& options) {
   if (dem.empty()) throw InputError("DEM: expected an image of one channel, got none");
@@ -67,8 +67,9 @@ void check_options(const Image& dem, const DemOptions& options) {
     throw InputError(fmt::format("DEM: expected one channel of heights in float32, half, 16 or 8 bit, got {}", to_string(dem.format())));
   if (options.grid_bits && (*options.grid_bits < kMinGridBits || *options.grid_bits > kMaxGridBits))
     throw InputError(fmt::format("grid: expected (2^k+1)² points, k {} to {}, got {}", kMinGridBits, kMaxGridBits, *options.grid_bits));
-  if (!is_positive(options.dem_spacing) || !is_positive(options.unit))
-    throw InputError(fmt::format("DEM: expected a spacing and a unit above 0, got {} and {}", options.dem_spacing, options.unit));
+  if (!is_step(options.dem_spacing) || !is_step(options.unit))
+    throw InputError(
+        fmt::format("DEM: expected a spacing and a unit of 2^-20 to 2^20 m, got {} and {}", options.dem_spacing, options.unit));
   if (!std::isfinite(options.sample_scale) || !std::isfinite(options.sample_offset))
     throw InputError(fmt::format("DEM: expected a finite scale and offset, got {} and {}", options.sample_scale, options.sample_offset));
 }
@@ -93,11 +94,18 @@ Between between(int i, const HeightField& field, int samples) {
 
 }  // namespace
 
-void validate(const HeightField& field) {
+void validate_grid(const HeightField& field) {
   if (field.bits < kMinGridBits || field.bits > kMaxGridBits)
     throw InputError(fmt::format("height field: expected k {} to {}, got {}", kMinGridBits, kMaxGridBits, field.bits));
-  if (!is_positive(field.spacing) || !is_positive(field.unit) || !std::isfinite(field.uv_start) || !std::isfinite(field.uv_step))
-    throw InputError("height field: expected finite numbers, spacing and unit above 0");
+  if (!is_step(field.spacing) || !is_step(field.unit))
+    throw InputError(fmt::format("height field: expected spacing and unit of 2^-20 to 2^20 m, got {} and {}", field.spacing, field.unit));
+  if (!(std::fabs(field.uv_start) <= kMaxStep) || !(std::fabs(field.uv_step) <= kMaxStep))
+    throw InputError(
+        fmt::format("height field: expected texture coordinates within 2^20, got start {} and step {}", field.uv_start, field.uv_step));
+}
+
+void validate(const HeightField& field) {
+  validate_grid(field);
   if (field.heights.size() != field.point_count())
     throw InputError(fmt::format("height field: expected {} heights, got {}", field.point_count(), field.heights.size()));
   for (const std::int32_t h : field.heights)
@@ -115,6 +123,7 @@ DemResult make_height_field(const Image& dem, const DemOptions& options) {
   field.bits = options.grid_bits.value_or(default_bits(window.size));
   field.spacing = options.dem_spacing * (window.size - 1) / field.steps();
   field.unit = options.unit;
+  if (!is_step(field.spacing)) throw InputError(fmt::format("DEM: expected points 2^-20 to 2^20 m apart, got {} m", field.spacing));
   field.uv_start = 0.5 / window.size;
   field.uv_step = static_cast<double>(window.size - 1) / field.steps() / window.size;
   field.heights.resize(field.point_count());
@@ -143,7 +152,7 @@ DemResult make_height_field(const Image& dem, const DemOptions& options) {
 
 HeightField with_unit(const HeightField& field, double unit) {
   validate(field);
-  if (!is_positive(unit)) throw InputError(fmt::format("unit: expected above 0, got {}", unit));
+  if (!is_step(unit)) throw InputError(fmt::format("unit: expected 2^-20 to 2^20 m, got {}", unit));
   HeightField result = field;
   result.unit = unit;
   for (std::int32_t& h : result.heights) h = in_units(h * field.unit, unit);

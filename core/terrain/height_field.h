@@ -17,10 +17,12 @@ namespace etalon::terrain {
 inline constexpr int kMinGridBits = 2, kMaxGridBits = 12;
 /// |height| in units is below this, so that float32 holds it.
 inline constexpr std::int32_t kMaxHeight = 1 << 24;
+/// Spacing and unit are in [1/kMaxStep, kMaxStep] metres, and texture coordinates within ±kMaxStep, so that all positions are far from float32's limits.
+inline constexpr double kMaxStep = 1 << 20;
 
 struct HeightField {
   int bits = 0;                       ///< k: 2..12
-  double spacing = 1;                 ///< metres between neighbouring grid points, > 0
+  double spacing = 1;                 ///< metres between neighbouring grid points
   double unit = 0x1p-6;               ///< metres of one step of height
   double uv_start = 0;                ///< texture coordinate of grid point 0 …
   double uv_step = 0;                 ///< … and from one grid point to the next, the same in u and v
@@ -44,6 +46,8 @@ struct HeightField {
 
 /// InputError where a field breaks what is said above.
 void validate(const HeightField& field);
+/// The same for its numbers, without its heights.
+void validate_grid(const HeightField& field);
 
 /// Square part of a DEM, in its columns and rows (row 0 is v = 0).
 struct DemWindow {

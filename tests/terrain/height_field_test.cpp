@@ -113,10 +113,11 @@ TEST_CASE("height field: holes, and what is no DEM, are refused with place and n
   CHECK(contains(error_of(Image(9, 9, kR32f), {.window = DemWindow{0, 0, 0}}), "expected inside 9x9"));
   CHECK(contains(error_of(Image(9, 9, kR32f), {.grid_bits = 13}), "k 2 to 12, got 13"));
   CHECK(contains(error_of(Image(9, 9, kR32f), {.grid_bits = 1}), "k 2 to 12, got 1"));
-  CHECK(contains(error_of(Image(9, 9, kR32f), {.dem_spacing = 0}), "above 0"));
-  CHECK(contains(error_of(Image(9, 9, kR32f), {.unit = -1}), "above 0"));
+  CHECK(contains(error_of(Image(9, 9, kR32f), {.dem_spacing = 0}), "2^-20 to 2^20 m, got 0"));
+  CHECK(contains(error_of(Image(9, 9, kR32f), {.unit = -1}), "2^-20 to 2^20 m"));
   CHECK(contains(error_of(Image(9, 9, kR32f), {.sample_scale = std::numeric_limits<double>::infinity()}), "finite scale"));
   CHECK(contains(error_of(plane_dem(5, 5), {.unit = 0x1p-20}), "less than 2^24 units"));
+  CHECK(contains(error_of(plane_dem(9, 9), {.grid_bits = 12, .dem_spacing = 0x1p-20}), "points 2^-20 to 2^20 m apart"));
 }
 
 TEST_CASE("height field: validate convicts each broken number; with_unit rounds half to even") {
@@ -130,6 +131,8 @@ TEST_CASE("height field: validate convicts each broken number; with_unit rounds 
   bad = good, bad.heights[3] = kMaxHeight;
   CHECK_THROWS_AS(validate(bad), InputError);
   bad = good, bad.spacing = 0;
+  CHECK_THROWS_AS(validate(bad), InputError);
+  bad = good, bad.unit = 0x1p21;
   CHECK_THROWS_AS(validate(bad), InputError);
   bad = good, bad.uv_step = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_AS(validate(bad), InputError);
