@@ -91,7 +91,8 @@ TEST_CASE("terrain stream: the bytes are the same everywhere, for any number of 
     const std::vector<double> weights = screen_weights(field, view);
     const Levels screen = make_levels(7, removal_order(field, {.weights = weights}), geometric_counts(7, 0.002, 0.2, 20));
     CHECK(sha256_hex(bytes_of(encode_terrain(field, surface).bytes)) == "e4ea3ad0d07ab85922690f9f232a154162e7be95ce2e5575b8b6a5049986c36b");
-    CHECK(sha256_hex(bytes_of(encode_terrain(field, screen, view).bytes)) == "23235dd15541bff8d5767fdbe6902891305843b05183b0f38883bfa0c18a195c");
+    CHECK(sha256_hex(bytes_of(encode_terrain(field, screen, view).bytes)) ==
+          "23235dd15541bff8d5767fdbe6902891305843b05183b0f38883bfa0c18a195c");
   }
   set_thread_count(0);
 }
