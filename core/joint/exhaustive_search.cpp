@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/base/error.h"
+#include "core/joint/geometric.h"
 
 namespace etalon::joint {
 
@@ -48,26 +49,9 @@ const PathPoint* point_within(const Path& path, std::uint64_t budget_bits) {
 std::vector<std::uint64_t> log_spaced_budgets(std::uint64_t low, std::uint64_t high, std::size_t count) {
   if (low < 1 || high <= low || high >= std::uint64_t{1} << 62 || count < 2)
     throw InputError(fmt::format("budgets: expected at least 2 from 1 <= low < high, got {} from {} to {}", count, low, high));
-  // The ratio is the root of high/low by bisection; products in a fixed order.
-  const double wanted = static_cast<double>(high) / static_cast<double>(low);
-  const auto power = [&](double base) {
-    double product = 1;
-    for (std::size_t n = 1; n < count; ++n) product *= base;
-    return product;
-  };
-  double below = 1, above = wanted;
-  for (;;) {
-    const double middle = below + (above - below) / 2;
-    if (middle <= below || middle >= above) break;
-    (power(middle) <= wanted ? below : above) = middle;
-  }
-  std::vector<std::uint64_t> budgets = {low};
-  double at = static_cast<double>(low);
-  for (std::size_t n = 1; n + 1 < count; ++n) {
-    at *= below;
+  std::vector<std::uint64_t> budgets;
+  for (const double at : geometric_progression(static_cast<double>(low), static_cast<double>(high), count))
     budgets.push_back(std::clamp(static_cast<std::uint64_t>(std::nearbyint(at)), low, high));
-  }
-  budgets.push_back(high);
   return budgets;
 }
 

@@ -1,0 +1,82 @@
+#include "core/joint/joint_levels.h"
+
+#include <algorithm>
+#include <span>
+
+#include "core/base/error.h"
+#include "core/joint/geometric.h"
+#include "core/joint/joint_stream.h"
+#include "core/joint/texel_view.h"
+
+namespace etalon::joint {
+namespace {
+
+std::vector<std::uint32_t> distinct_counts(const terrain::HeightField& field, const LevelOptions& options) {
+  std::vector<std::uint32_t> counts = terrain::geometric_counts(field.bits, options.from, options.to, options.meshes);
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+  return counts;
+}
+
+void make_meshes(const terrain::HeightField& field, const terrain::TerrainView& view, const LevelOptions& options, JointLevels& result) {
+  const std::vector<double> weights = terrain::screen_weights(field, view);
+  const terrain::RemovalOrder order = terrain::removal_order(field, {.rule = options.pruning, .weights = weights, .progress = {}});
+  result.field = terrain::with_unit(field, options.height_unit_m);
+  result.levels = terrain::make_levels(field.bits, order, distinct_counts(field, options));
+  result.mesh_stream = terrain::encode_terrain(result.field, result.levels, view);
+}
+
+void make_textures(const Image& image, const LevelOptions& options, JointLevels& result) {
+  const int levels = wavelet::default_levels(image.width(), image.height());
+  const auto mesh_stream = std::as_bytes(std::span(result.mesh_stream.bytes));
+  result.delays = delays_of(terrain::read_header(mesh_stream, terrain::kMaxGridBits), image.width(), image.height(), levels);
+  wavelet::EncodeOptions encode{.kernel = options.kernel, .levels = levels, .delays = result.delays};
+  encode.significant_shares = geometric_progression(options.from, options.to, options.textures);
+  encode.stops_at_last_share = true;
+  wavelet::EncodedTexture encoded = wavelet::encode_texture(image, encode);
+  for (const wavelet::StreamPoint& point : encoded.points)
+    if (result.texture_ends_bytes.empty() || point.bytes > result.texture_ends_bytes.back())
+      result.texture_ends_bytes.push_back(point.bytes), result.significant.push_back(point.significant);
+  if (result.texture_ends_bytes.empty()) throw InputError("texture: nothing of it is seen in this view");
+  result.texture_stream = std::move(encoded.bytes);
+  result.texture_stream.resize(result.texture_ends_bytes.back());
+  result.significant_total = encoded.significant_total;
+}
+
+std::vector<std::uint64_t> bits_of(const std::vector<std::size_t>& ends_bytes, std::size_t head_bytes) {
+  std::vector<std::uint64_t> bits;
+  for (std::size_t n = 0; n < ends_bytes.size(); ++n) bits.push_back(8 * (head_bytes + ends_bytes[n] + (n + 1) * kSegmentHeadBytes));
+  return bits;
+}
+
+}  // namespace
+
+wavelet::Delays delays_of(const terrain::StreamHeader& mesh, int texture_width, int texture_height, int levels) {
+  if (!mesh.view) return {};
+  const terrain::HeightField& grid = mesh.grid;
+  const TerrainExtent extent{grid.bits, grid.spacing, grid.uv_start, grid.uv_step, mesh.lowest * grid.unit, mesh.highest * grid.unit};
+  return wavelet::view_delays(texel_view(extent, *mesh.view, texture_width, texture_height), {.levels = levels});
+}
+
+JointLevels make_joint_levels(const terrain::HeightField& field, const Image& image, const terrain::TerrainView& view,
+                              const LevelOptions& options) {
+  terrain::validate(field);
+  JointLevels result;
+  make_meshes(field, view, options, result);
+  make_textures(image, options, result);
+  result.mesh_bits = bits_of(result.mesh_stream.level_ends_bytes, kJointHeaderBytes);
+  result.texture_bits = bits_of(result.texture_ends_bytes, 0);
+  return result;
+}
+
+std::vector<Image> texture_levels(const JointLevels& levels) {
+  std::vector<Image> images(levels.texture_ends_bytes.size());
+  wavelet::decode_prefixes(levels.texture_stream, levels.texture_ends_bytes, levels.delays,
+                           [&](std::size_t j, wavelet::DecodedTexture decoded) { images[j] = std::move(decoded.image); });
+  return images;
+}
+
+Problem problem_of(const JointLevels& levels, std::function<std::uint64_t(std::size_t, std::size_t)> error) {
+  return {levels.mesh_bits, levels.texture_bits, std::move(error)};
+}
+
+}  // namespace etalon::joint

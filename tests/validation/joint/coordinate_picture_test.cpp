@@ -1,0 +1,130 @@
+#include "validation/joint/coordinate_picture.h"
+
+#include <doctest/doctest.h>
+
+#include "core/base/error.h"
+#include "core/base/rng.h"
+#include "raster/cpu_renderer.h"
+#include "validation/joint/screen_errors.h"
+#include "validation/metrics/image_difference.h"
+
+using namespace etalon;
+using namespace etalon::validation;
+
+namespace {
+
+float chance(Rng& rng, double low, double high) {
+  return static_cast<float>(low + (high - low) * static_cast<double>(rng.below(1'000'000)) / 1e6);
+}
+
+/// Triangles of any coordinates, some outside [0, 1], in front of a camera at z = 3.
+Mesh chance_mesh(std::uint64_t seed, int triangles, double uv_low, double uv_high) {
+  Rng rng(seed);
+  Mesh mesh;
+  mesh.has_uv = true;
+  for (int t = 0; t < triangles; ++t) {
+    std::array<WedgeId, 3> face;
+    for (WedgeId& corner : face) {
+      const float x = chance(rng, -2, 2), y = chance(rng, -2, 2), z = chance(rng, -1, 1), u = chance(rng, uv_low, uv_high);
+      mesh.positions.emplace_back(x, y, z);
+      mesh.wedges.push_back({VertexId(mesh.positions.size() - 1), Vec2f(u, chance(rng, uv_low, uv_high))});
+      corner = WedgeId(mesh.wedges.size() - 1);
+    }
+    mesh.faces.push_back(face);
+  }
+  return mesh;
+}
+
+Image chance_texture(std::uint64_t seed, int width, int height) {
+  Rng rng(seed);
+  Image image(width, height, kRgba8);
+  for (std::byte& b : image.bytes()) b = static_cast<std::byte>(rng.below(256));
+  return opaque_rgba(image);
+}
+
+const PictureFrame kFrame{.camera = {}, .width = 160, .height = 120};
+
+}  // namespace
+
+TEST_CASE("a picture looked up through coordinates has the bytes of both passes drawn") {
+  raster::CpuRenderer exact;
+  struct Size {
+    int width, height;
+  };
+  // Powers of two (weights without rounding), others (with), the least.
+  for (const Size size : {Size{64, 64}, Size{256, 32}, Size{100, 37}, Size{495, 495}, Size{3, 1000}, Size{2, 2}})
+    for (const double reach : {0.0, 0.3}) {
+      const Mesh mesh = chance_mesh(static_cast<std::uint64_t>(size.width), 12, -reach, 1 + reach);
+      const auto texture = std::make_shared<const Image>(chance_texture(7, size.width, size.height));
+      const CoordinatePicture through(draw_coordinates(exact, mesh, kFrame), size.width, size.height);
+      CHECK(through.covered_texels() > 1000);
+      CHECK(through.covered_texels() < 160 * 120);
+      CHECK(differing_texels(through.picture(*texture), draw_in_two_passes(exact, mesh, texture, kFrame)) == 0);
+    }
+}
+
+TEST_CASE("values half way between two numbers are rounded as the renderer rounds them") {
+  // A square of two texels' width over 2^n pixels: most weights are multiples of a power of two, so that ties abound.
+  Mesh mesh;
+  mesh.has_uv = true;
+  for (int corner = 0; corner < 4; ++corner) {
+    mesh.positions.emplace_back(static_cast<float>(corner & 1) * 4 - 2, static_cast<float>(corner >> 1) * 4 - 2, 0.0f);
+    mesh.wedges.push_back(
+        {VertexId(static_cast<std::size_t>(corner)), Vec2f(static_cast<float>(corner & 1), static_cast<float>(corner >> 1))});
+  }
+  mesh.faces = {{WedgeId(0u), WedgeId(1u), WedgeId(3u)}, {WedgeId(0u), WedgeId(3u), WedgeId(2u)}};
+  const PictureFrame frame{.camera = {.eye = {0, 0, 4}, .tan_half_fov_y = 0.5}, .width = 128, .height = 128};
+  raster::CpuRenderer exact;
+  for (const int size : {2, 4, 3, 12, 24}) {
+    Rng rng(static_cast<std::uint64_t>(size));
+    Image image(size, size, kRgba8);
+    for (std::byte& b : image.bytes()) b = static_cast<std::byte>(rng.below(4));
+    const auto texture = std::make_shared<const Image>(opaque_rgba(image));
+    const CoordinatePicture through(draw_coordinates(exact, mesh, frame), size, size);
+    CHECK(through.covered_texels() == 128 * 128);
+    CHECK(differing_texels(through.picture(*texture), draw_in_two_passes(exact, mesh, texture, frame)) == 0);
+  }
+}
+
+TEST_CASE("the sum of squared differences is that of the pictures' RGB, uncovered texels black") {
+  raster::CpuRenderer exact;
+  const Mesh mesh = chance_mesh(1, 8, 0, 1), other = chance_mesh(2, 8, 0, 1);
+  const Image texture = chance_texture(3, 64, 48), blurred = chance_texture(4, 64, 48);
+  const CoordinatePicture one(draw_coordinates(exact, mesh, kFrame), 64, 48), two(draw_coordinates(exact, other, kFrame), 64, 48);
+  const Image reference = one.picture(texture);
+  CHECK(one.sse(texture, reference) == 0);
+  const ImageDifference difference = measure_difference(two.picture(blurred), reference);
+  const std::uint64_t rgb = difference.channels[0].sse + difference.channels[1].sse + difference.channels[2].sse;
+  CHECK(rgb > 0);
+  CHECK(two.sse(blurred, reference) == rgb);
+}
+
+TEST_CASE("screen errors draw each mesh once for all its textures") {
+  raster::CpuRenderer exact;
+  const std::vector<Mesh> meshes = {chance_mesh(1, 4, 0, 1), chance_mesh(2, 6, 0, 1)};
+  const std::vector<Image> textures = {chance_texture(3, 16, 16), chance_texture(4, 16, 16), chance_texture(5, 16, 16)};
+  const Image reference = CoordinatePicture(draw_coordinates(exact, meshes[1], kFrame), 16, 16).picture(textures[2]);
+  ScreenErrors errors(exact, {kFrame, [&](std::size_t i) { return meshes[i]; }, textures, reference});
+  CHECK(errors.samples() == 3 * 160 * 120);
+  for (std::size_t i : {1, 0})
+    for (std::size_t j : {2, 1, 0}) {
+      const Image drawn = draw_in_two_passes(exact, meshes[i], std::make_shared<const Image>(textures[j]), kFrame);
+      CHECK(errors.picture(i, j) == drawn);
+      const ImageDifference d = measure_difference(drawn, reference);
+      CHECK(errors.sse(i, j) == d.channels[0].sse + d.channels[1].sse + d.channels[2].sse);
+    }
+  CHECK(errors.sse(1, 2) == 0);
+  CHECK(errors.meshes_drawn() == 2);
+}
+
+TEST_CASE("textures of one texel's width, and of formats without bytes, are refused") {
+  raster::CpuRenderer exact;
+  const DrawnCoordinates drawn = draw_coordinates(exact, chance_mesh(1, 2, 0, 1), kFrame);
+  CHECK_THROWS_AS(CoordinatePicture(drawn, 1, 8), InputError);
+  CHECK_THROWS_AS((void)opaque_rgba(Image(2, 2, kRg32f)), InputError);
+  Image grey(2, 2, {ChannelType::unorm8, 1});
+  *grey.channels<std::uint8_t>(1, 1) = 77;
+  const Image opaque = opaque_rgba(grey);
+  CHECK(opaque.channels<std::uint8_t>(1, 1)[2] == 77);
+  CHECK(opaque.channels<std::uint8_t>(0, 0)[3] == 255);
+}

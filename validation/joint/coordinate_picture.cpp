@@ -1,0 +1,203 @@
+#include "validation/joint/coordinate_picture.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/draw/scene.h"
+
+namespace etalon::validation {
+namespace {
+
+constexpr int kWeightBits = 24;
+constexpr std::uint32_t kOne = 1u << kWeightBits;
+constexpr std::uint32_t kRounded = 1u << 31;
+constexpr std::size_t kBlock = 8192;
+
+struct Axis {
+  std::uint32_t texel, weight;  ///< of the second texel, with kRounded
+};
+
+// x = a·n − ½ is exact in double: a has 24 bits, n at most 15, and where x is not clamped a·n >= ½, so that x has no bit below 2^-40.
+double lookup_place(float a, int size) { return static_cast<double>(a) * size - 0.5; }
+
+// Clamping makes both texels one: as well the inner pair with all weight on it.
+Axis lookup_axis(float a, int size) {
+  const double x = lookup_place(a, size);
+  if (!(x > 0)) return {0, 0};
+  if (x >= size - 1) return {static_cast<std::uint32_t>(size - 2), kOne};
+  const double below = std::floor(x), scaled = (x - below) * kOne, weight = std::nearbyint(scaled);
+  return {static_cast<std::uint32_t>(below), static_cast<std::uint32_t>(weight) | (weight == scaled ? 0 : kRounded)};
+}
+
+// Nearest, ties to even.
+std::uint8_t rounded_sum(std::int64_t sum) {
+  constexpr std::int64_t kHalf = std::int64_t{1} << (2 * kWeightBits - 1);
+  return static_cast<std::uint8_t>((sum + kHalf - 1 + ((sum >> (2 * kWeightBits)) & 1)) >> (2 * kWeightBits));
+}
+
+// Where a rounded weight leaves it open: the same in multiples of 2^-80.
+std::uint8_t exact_value(float u, float v, int width, int height, const std::array<int, 4>& texels) {
+  __extension__ using Int128 = __int128;
+  constexpr int kBits = 40;
+  const auto weight = [](float a, int size) -> std::int64_t {
+    const double x = lookup_place(a, size);
+    if (!(x > 0)) return 0;
+    if (x >= size - 1) return std::int64_t{1} << kBits;
+    return static_cast<std::int64_t>((x - std::floor(x)) * static_cast<double>(std::int64_t{1} << kBits));
+  };
+  const Int128 one = Int128{1} << kBits, fx = weight(u, width), fy = weight(v, height);
+  const Int128 low = texels[0] * (one - fx) + texels[1] * fx, high = texels[2] * (one - fx) + texels[3] * fx;
+  const Int128 sum = low * (one - fy) + high * fy, half = Int128{1} << (2 * kBits - 1);
+  return static_cast<std::uint8_t>((sum + half - 1 + ((sum >> (2 * kBits)) & 1)) >> (2 * kBits));
+}
+
+}  // namespace
+
+DrawnCoordinates draw_coordinates(Renderer& renderer, const Mesh& mesh, const PictureFrame& picture) {
+  Frame frame{.width = picture.width, .height = picture.height, .guard = 2048, .state = {}, .targets = {}};
+  frame.targets = {{TargetContent::coordinate, kRg32f, {}}, {TargetContent::triangle_id, kR32ui, {}}};
+  frame.state = renderer.supported_state(frame.state);
+  std::vector<Image> images = renderer.render(make_scene(mesh, {Material{}}, picture.camera, frame), frame);
+  return {std::move(images[0]), std::move(images[1])};
+}
+
+LookupPass lookup_pass(const Renderer& renderer, std::shared_ptr<const Image> texture, std::shared_ptr<const Image> coordinates) {
+  LookupPass pass;
+  pass.frame = Frame{.width = coordinates->width(), .height = coordinates->height(), .guard = 2048, .state = {}, .targets = {}};
+  pass.frame.targets = {{TargetContent::color, kRgba8, {}}};
+  pass.frame.state.depth_test = false;
+  pass.frame.state = renderer.supported_state(pass.frame.state);
+  for (int corner = 0; corner < 4; ++corner) {
+    const int right = corner & 1, up = corner >> 1;
+    RasterVertex vertex;
+    vertex.x = snap(right * pass.frame.width, pass.frame.state), vertex.y = snap(up * pass.frame.height, pass.frame.state);
+    vertex.uv = {static_cast<float>(right), static_cast<float>(up)};
+    pass.list.vertices.push_back(vertex);
+  }
+  pass.list.triangles = {{0, 1, 3}, {0, 3, 2}};
+  const Sampler nearest{Filter::nearest, Wrap::clamp, Wrap::clamp}, linear{Filter::linear, Wrap::clamp, Wrap::clamp};
+  pass.list.draws = {{.first_triangle = 0,
+                      .triangle_count = 2,
+                      .shading = Shading::indexed,
+                      .texture = 0,
+                      .sampler = linear,
+                      .indexing_map = 1,
+                      .map_sampler = nearest}};
+  pass.list.images = {std::move(texture), std::move(coordinates)};
+  return pass;
+}
+
+Image draw_in_two_passes(Renderer& renderer, const Mesh& mesh, std::shared_ptr<const Image> texture, const PictureFrame& frame) {
+  DrawnCoordinates drawn = draw_coordinates(renderer, mesh, frame);
+  const LookupPass pass = lookup_pass(renderer, std::move(texture), std::make_shared<const Image>(std::move(drawn.coordinates)));
+  Image picture = std::move(renderer.render(pass.list, pass.frame).front());
+  for (int y = 0; y < frame.height; ++y)
+    for (int x = 0; x < frame.width; ++x)
+      if (*drawn.ids.channels<std::uint32_t>(x, y) == kNoTriangle) std::fill_n(picture.texel(x, y), 4, std::byte{0});
+  return picture;
+}
+
+CoordinatePicture::CoordinatePicture(const DrawnCoordinates& drawn, int texture_width, int texture_height)
+    : coordinates_(drawn.coordinates), texture_width_(texture_width), texture_height_(texture_height) {
+  if (texture_width < 2 || texture_height < 2)
+    throw InputError(fmt::format("texture: expected at least 2x2 texels, got {}x{}", texture_width, texture_height));
+  const auto* uv = coordinates_.channels<float>(0, 0);
+  const auto* ids = drawn.ids.channels<std::uint32_t>(0, 0);
+  for (std::uint32_t n = 0; n < coordinates_.texel_count(); ++n) {
+    if (ids[n] == kNoTriangle) {
+      uncovered_.push_back(n);
+      continue;
+    }
+    const Axis x = lookup_axis(uv[2 * n], texture_width), y = lookup_axis(uv[2 * n + 1], texture_height);
+    lookups_.push_back({n, y.texel * static_cast<std::uint32_t>(texture_width) + x.texel, x.weight, y.weight});
+  }
+}
+
+template <class Body>
+void CoordinatePicture::for_each_color(const Image& texture, std::size_t begin, std::size_t end, const Body& body) const {
+  constexpr std::int64_t kFraction = (std::int64_t{1} << (2 * kWeightBits)) - 1, kHalf = (kFraction + 1) / 2;
+  // Two weights off by at most 2^-25 each, values to 255: the sum is off by less than 2^-16; where half is nearer than that it is left open.
+  constexpr std::int64_t kOpen = (kFraction + 1) >> 16;
+  const auto* const texels = reinterpret_cast<const std::uint8_t*>(texture.bytes().data());
+  const std::size_t row = 4 * static_cast<std::size_t>(texture_width_);
+  for (std::size_t n = begin; n < end; ++n) {
+    const Lookup& lookup = lookups_[n];
+    const std::int64_t fx = lookup.fx & ~kRounded, fy = lookup.fy & ~kRounded;
+    const bool is_rounded = ((lookup.fx | lookup.fy) & kRounded) != 0;
+    const std::uint8_t* const low = texels + 4 * std::size_t{lookup.texel};
+    const std::uint8_t* const high = low + row;
+    std::array<std::uint8_t, 3> color;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::int64_t a = (std::int64_t{low[c]} << kWeightBits) + fx * (low[c + 4] - low[c]);
+      const std::int64_t b = (std::int64_t{high[c]} << kWeightBits) + fx * (high[c + 4] - high[c]);
+      const std::int64_t sum = (a << kWeightBits) + fy * (b - a);
+      color[c] = rounded_sum(sum);
+      const std::int64_t beyond_half = (sum & kFraction) - kHalf;
+      if (is_rounded && beyond_half <= kOpen && beyond_half >= -kOpen) [[unlikely]] {
+        const auto* uv = coordinates_.channels<float>(0, 0) + 2 * std::size_t{lookup.at};
+        color[c] = exact_value(uv[0], uv[1], texture_width_, texture_height_, {low[c], low[c + 4], high[c], high[c + 4]});
+      }
+    }
+    body(lookup.at, color);
+  }
+}
+
+void CoordinatePicture::require_texture(const Image& texture) const {
+  ETALON_CHECK(texture.format() == kRgba8 && texture.width() == texture_width_ && texture.height() == texture_height_,
+               fmt::format("{}x{}", texture.width(), texture.height()));
+}
+
+Image CoordinatePicture::picture(const Image& texture) const {
+  require_texture(texture);
+  Image picture(coordinates_.width(), coordinates_.height(), kRgba8);
+  auto* const out = picture.channels<std::uint8_t>(0, 0);
+  parallel_for_blocks(lookups_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    for_each_color(texture, begin, end, [&](std::uint32_t at, const std::array<std::uint8_t, 3>& color) {
+      std::uint8_t* const texel = out + 4 * std::size_t{at};
+      texel[0] = color[0], texel[1] = color[1], texel[2] = color[2], texel[3] = 255;
+    });
+  });
+  return picture;
+}
+
+std::uint64_t CoordinatePicture::sse(const Image& texture, const Image& reference) const {
+  require_texture(texture);
+  ETALON_CHECK(reference.format() == kRgba8 && reference.texel_count() == coordinates_.texel_count(), "a picture of the frame's size");
+  const auto* const wanted = reference.channels<std::uint8_t>(0, 0);
+  const auto squares = [wanted](std::uint32_t at, const std::array<std::uint8_t, 3>& color) {
+    const std::uint8_t* const texel = wanted + 4 * std::size_t{at};
+    const int r = color[0] - texel[0], g = color[1] - texel[1], b = color[2] - texel[2];
+    return static_cast<std::uint64_t>(r * r + g * g + b * b);
+  };
+  std::vector<std::uint64_t> sums(lookups_.size() / kBlock + 1);
+  parallel_for_blocks(lookups_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t sum = 0;
+    for_each_color(texture, begin, end, [&](std::uint32_t at, const auto& color) { sum += squares(at, color); });
+    sums[begin / kBlock] = sum;
+  });
+  std::uint64_t sse = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
+  for (const std::uint32_t at : uncovered_) sse += squares(at, {0, 0, 0});
+  return sse;
+}
+
+Image opaque_rgba(const Image& image) {
+  const PixelFormat format = image.format();
+  if ((format.type != ChannelType::unorm8 && format.type != ChannelType::srgb8) || image.empty())
+    throw InputError("texture: expected channels of 8 bits");
+  Image result(image.width(), image.height(), kRgba8);
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) {
+      const auto* from = image.channels<std::uint8_t>(x, y);
+      auto* to = result.channels<std::uint8_t>(x, y);
+      const bool is_grey = format.channels < 3;
+      to[0] = from[0], to[1] = from[is_grey ? 0 : 1], to[2] = from[is_grey ? 0 : 2], to[3] = 255;
+    }
+  return result;
+}
+
+}  // namespace etalon::validation

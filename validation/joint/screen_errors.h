@@ -1,0 +1,46 @@
+// The error of a pair (M_i, T_j): what differs on the screen between its picture and that of the full pair (equation 1 of [Horbelt, Balmelli & Vetterli]),
+// as an integer. A mesh is drawn when it is first asked for, not again for its other textures as long as it is among the last few.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <vector>
+
+#include "validation/joint/coordinate_picture.h"
+
+namespace etalon::validation {
+
+struct ScreenProblem {
+  PictureFrame frame;
+  std::function<Mesh(std::size_t)> mesh;  ///< level i; called each time it must be drawn
+  std::vector<Image> textures;            ///< of all levels: RGBA unorm8, opaque, one size
+  Image reference;                        ///< the picture of the full pair
+};
+
+class ScreenErrors {
+ public:
+  ScreenErrors(Renderer& renderer, ScreenProblem problem);
+
+  /// Sum of squared differences of R, G, B over the whole frame; texels that show nothing are black.
+  [[nodiscard]] std::uint64_t sse(std::size_t mesh, std::size_t texture);
+  [[nodiscard]] Image picture(std::size_t mesh, std::size_t texture);
+
+  [[nodiscard]] std::uint64_t samples() const { return 3 * std::uint64_t{problem_.reference.texel_count()}; }  ///< that sse() sums over
+  [[nodiscard]] std::size_t meshes_drawn() const { return meshes_drawn_; }
+  [[nodiscard]] const Image& reference() const { return problem_.reference; }
+
+ private:
+  struct Drawn {
+    std::size_t mesh;
+    CoordinatePicture picture;
+  };
+  const CoordinatePicture& drawn(std::size_t mesh);
+
+  Renderer& renderer_;
+  ScreenProblem problem_;
+  std::list<Drawn> last_;  ///< latest use first
+  std::size_t meshes_drawn_ = 0;
+};
+
+}  // namespace etalon::validation
