@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/base/float_environment.h"
-#include "core/draw/clip.h"
+#include "core/draw/clip_placer.h"
 
 namespace etalon {
 namespace {
@@ -48,10 +48,11 @@ class ListBuilder {
     list_.draws.push_back(draw);
   }
 
-  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t face) {
-    list_.triangles.push_back({a, b, c});
-    list_.source_faces.push_back(face);
-    ++list_.draws.back().triangle_count;
+  // All triangles that were added to the list since the last call come from `face`.
+  void end_face(std::uint32_t face) {
+    const auto added = static_cast<std::uint32_t>(list_.triangles.size() - list_.source_faces.size());
+    list_.source_faces.insert(list_.source_faces.end(), added, face);
+    list_.draws.back().triangle_count += added;
   }
 
  private:
@@ -93,30 +94,6 @@ ClipVertex clip_vertex(const Mesh& mesh, WedgeId id, const Matrix4& clip_from_ob
   return v;
 }
 
-RasterVertex raster_vertex(const ClipVertex& v, const Frame& frame) {
-  const double w = v.w;
-  // After clipping only the rounding of a cut vertex can leave the guard, or the ranges of depth and w, by less than a sub-texel: brought back here.
-  const auto window = [&](float clip, int size) {
-    const double texels = (double{clip} / w + 1) * 0.5 * size;
-    return std::clamp(texels, -static_cast<double>(frame.guard), static_cast<double>(size) + frame.guard);
-  };
-  RasterVertex r;
-  r.x = snap(window(v.x, frame.width), frame.state);
-  r.y = snap(window(v.y, frame.height), frame.state);
-  r.z = static_cast<float>(std::clamp((double{v.z} / w + 1) * 0.5, 0.0, 1.0));
-  r.w = std::clamp(v.w, 0x1p-20f, 0x1p20f);
-  r.uv = v.uv;
-  r.color = v.color;
-  return r;
-}
-
-bool all_inside(const std::array<ClipVertex, 3>& t, const std::array<ClipPlane, 8>& planes) {
-  for (const ClipPlane& p : planes)
-    for (const ClipVertex& v : t)
-      if (p.x * v.x + p.y * v.y + p.z * v.z + p.w * v.w + p.constant < 0) return false;
-  return true;
-}
-
 }  // namespace
 
 std::int32_t snap(double x_texel, const RasterState& state) {
@@ -132,37 +109,16 @@ DrawList make_scene(const Mesh& mesh, const std::vector<Material>& materials, co
   validate(frame);
   check_mesh(mesh);
   const Matrix4 matrix = clip_from_object(camera, frame.width, frame.height);
-  const auto planes = clip_planes(frame.width, frame.height, frame.guard);
   DrawList list;
   ListBuilder builder(materials, list);
-
-  // Wedges become raster vertices once, when first met by a face that needs no clipping.
   std::vector<ClipVertex> clip(mesh.wedges.size());
   for (std::size_t w = 0; w < clip.size(); ++w) clip[w] = clip_vertex(mesh, WedgeId(w), matrix);
-  std::vector<std::uint32_t> vertex_of_wedge(mesh.wedges.size(), kNoTriangle);
-  const auto add_vertex = [&](const ClipVertex& v) {
-    list.vertices.push_back(raster_vertex(v, frame));
-    return static_cast<std::uint32_t>(list.vertices.size() - 1);
-  };
-
+  ClipPlacer placer(clip, frame, list);
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     const auto& face = mesh.faces[f];
-    const std::array<ClipVertex, 3> triangle = {clip[face[0].index], clip[face[1].index], clip[face[2].index]};
     builder.begin_face(mesh.face_materials.empty() ? 0 : mesh.face_materials[f]);
-    if (all_inside(triangle, planes)) {
-      std::array<std::uint32_t, 3> v{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        std::uint32_t& id = vertex_of_wedge[face[k].index];
-        if (id == kNoTriangle) id = add_vertex(triangle[k]);
-        v[k] = id;
-      }
-      builder.add_triangle(v[0], v[1], v[2], static_cast<std::uint32_t>(f));
-      continue;
-    }
-    const std::vector<ClipVertex> polygon = clip_triangle(triangle, planes);
-    std::vector<std::uint32_t> v;
-    for (const ClipVertex& p : polygon) v.push_back(add_vertex(p));
-    for (std::size_t k = 2; k < v.size(); ++k) builder.add_triangle(v[0], v[k - 1], v[k], static_cast<std::uint32_t>(f));
+    placer.add({face[0].index, face[1].index, face[2].index});
+    builder.end_face(static_cast<std::uint32_t>(f));
   }
   std::erase_if(list.draws, [](const Draw& draw) { return draw.triangle_count == 0; });
   return list;
@@ -185,7 +141,8 @@ DrawList make_uv_scene(const Mesh& mesh, const std::vector<Material>& materials,
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     builder.begin_face(mesh.face_materials.empty() ? 0 : mesh.face_materials[f]);
     const auto& face = mesh.faces[f];
-    builder.add_triangle(face[0].index, face[1].index, face[2].index, static_cast<std::uint32_t>(f));
+    list.triangles.push_back({face[0].index, face[1].index, face[2].index});
+    builder.end_face(static_cast<std::uint32_t>(f));
   }
   return list;
 }

@@ -61,47 +61,6 @@ int base64_digit(char c) {
 
 }  // namespace
 
-void JsonRef::fail(const std::string& what) const { fail_file(*file_, fmt::format("{}: {}", path_, what)); }
-
-JsonRef JsonRef::at(const char* key) const {
-  if (!value_->is_object()) fail(fmt::format("expected an object, got {}", value_->type_name()));
-  const auto found = value_->find(key);
-  if (found == value_->end()) fail(fmt::format("expected a member '{}', got none", key));
-  return {*found, path_ == "glTF" ? std::string(key) : path_ + "." + key, *file_};
-}
-
-JsonRef JsonRef::at(std::uint64_t index) const {
-  if (index >= size()) fail(fmt::format("index expected below {}, got {}", size(), index));
-  return {(*value_)[static_cast<std::size_t>(index)], fmt::format("{}[{}]", path_, index), *file_};
-}
-
-std::size_t JsonRef::size() const {
-  if (!value_->is_array()) fail(fmt::format("expected an array, got {}", value_->type_name()));
-  return value_->size();
-}
-
-std::uint64_t JsonRef::integer() const {
-  if (value_->is_number_unsigned()) return value_->get<std::uint64_t>();
-  // glTF 2.0, 2.7.2 allows an integer to be written with a fraction of zero.
-  if (value_->is_number_float()) {
-    const double number = value_->get<double>();
-    if (number >= 0 && number <= 0x1p53 && number == std::floor(number)) return static_cast<std::uint64_t>(number);
-  }
-  fail(fmt::format("expected an integer from 0, got {}", printable(value_->is_number() ? value_->dump() : value_->type_name())));
-}
-
-double JsonRef::real() const {
-  if (!value_->is_number()) fail(fmt::format("expected a number, got {}", value_->type_name()));
-  return value_->get<double>();
-}
-
-std::string JsonRef::text() const {
-  if (!value_->is_string()) fail(fmt::format("expected a string, got {}", value_->type_name()));
-  return value_->get<std::string>();
-}
-
-bool JsonRef::true_at(const char* key) const { return has(key) && (*value_)[key].is_boolean() && (*value_)[key].get<bool>(); }
-
 float GltfAccessor::real(std::size_t i, int c) const {
   const std::byte* at = bytes.data() + i * stride_bytes + static_cast<std::size_t>(c) * component_bytes(component_type);
   // glTF 2.0, 3.6.2.2: f = c / max; signed ones stop at -1.

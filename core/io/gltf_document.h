@@ -11,33 +11,9 @@
 #include <vector>
 
 #include "core/io/inputs.h"
+#include "core/io/json_ref.h"
 
 namespace etalon::io {
-
-/// A value of the document that knows its path; every accessor throws InputError "FILE: PATH: what, expected, got" instead of guessing.
-class JsonRef {
- public:
-  JsonRef(const nlohmann::json& value, std::string path, const std::string& file) : value_(&value), path_(std::move(path)), file_(&file) {}
-
-  [[nodiscard]] bool has(const char* key) const { return value_->is_object() && value_->contains(key); }
-  [[nodiscard]] JsonRef at(const char* key) const;
-  [[nodiscard]] JsonRef at(std::uint64_t index) const;
-  [[nodiscard]] std::size_t size() const;  ///< of an array
-  [[nodiscard]] std::uint64_t integer() const;
-  [[nodiscard]] std::uint64_t integer_or(const char* key, std::uint64_t fallback) const { return has(key) ? at(key).integer() : fallback; }
-  [[nodiscard]] double real() const;
-  [[nodiscard]] std::string text() const;
-  [[nodiscard]] std::string text_or(const char* key, const char* fallback) const { return has(key) ? at(key).text() : fallback; }
-  [[nodiscard]] bool is_text() const { return value_->is_string(); }
-  [[nodiscard]] bool true_at(const char* key) const;
-  [[nodiscard]] const std::string& path() const { return path_; }
-  [[noreturn]] void fail(const std::string& what) const;
-
- private:
-  const nlohmann::json* value_;
-  std::string path_;
-  const std::string* file_;
-};
 
 /// `count` elements of `component_count` numbers each, all of them inside the buffer.
 struct GltfAccessor {

@@ -21,7 +21,7 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"core/terrain", {"core/mesh", "core/image"}},
     {"core/wavelet", {"core/image"}},
     {"core/joint", {"core/terrain", "core/wavelet"}},
-    {"core/io", {"core/image", "core/mesh", "core/progressive"}},
+    {"core/io", {"core/draw", "core/progressive"}},
     {"core/procedural", {"core/mesh", "core/image"}},
     {"raster", {"core/draw"}},
     {"gpu", {"core/draw"}},
