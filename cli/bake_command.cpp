@@ -16,6 +16,7 @@
 #include "cli/interrupt.h"
 #include "cli/length_option.h"
 #include "cli/model_input.h"
+#include "cli/range_input.h"
 #include "cli/repair_notes.h"
 #include "cli/size_option.h"
 #include "cli/usage_error.h"
@@ -36,6 +37,7 @@ constexpr const char* kTolerance = "bake: --tolerance";
 struct Options {
   std::string scan, output, tolerance, size = "512", fill = "iterative", corners = "inset";
   std::optional<std::int64_t> faces;
+  RangeOptions range;
   CommonOptions common;
 };
 
@@ -76,9 +78,14 @@ validation::VerifyInput input_of(const Options& options, const io::LoadedModel& 
   return input;
 }
 
+std::vector<validation::VerifyInput> inputs_of(const Options& options, const validation::VerifyInput& scan) {
+  if (options.range.texture.empty()) return {scan};
+  return {scan, file_input(options.range.texture, "texture")};
+}
+
 Json document_of(const Options& options, const validation::VerifyInput& input, const io::LoadedModel& scan, const BakeResult& result,
                  std::optional<double> tolerance) {
-  Json document = validation::document_head("bake", {input});
+  Json document = validation::document_head("bake", inputs_of(options, input));
   document["target_faces"] = options.faces ? Json(*options.faces) : Json(nullptr);
   document["tolerance"] = tolerance ? Json(*tolerance) : Json(nullptr);
   document["width"] = result.atlas.width;
@@ -141,12 +148,13 @@ void print_result(Console& console, const Options& options, const io::LoadedMode
 int run(const Options& options) {
   apply(options.common);
   const FrameSize size = require_options(options);
+  require_colors(options.scan, options.range, "bake");
   require_writable_file(options.output);
   require_writable_file(options.common.json);
   Console console(console_options(options.common));
   CallFiles files;
   files.add_input(options.scan, "the scan");
-  const io::LoadedModel scan = io::read_mesh(options.scan);
+  const io::LoadedModel scan = load_scan(options.scan, options.range, files);
   add_side_files(files, scan);
   const std::vector<std::filesystem::path> outputs = io::mesh_output_files(options.output, materials_of(Image(1, 1, kRgb8)));
   for (const std::filesystem::path& path : outputs) files.add_output(path.string(), "-o");
@@ -181,7 +189,7 @@ int run(const Options& options) {
 Verb add_bake(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("bake", "Write a coloured scan as few triangles and a texture map of its vertex colours");
-  app->add_option("scan", options->scan, "Mesh with vertex colours: .ply .obj .glb .gltf")
+  app->add_option("scan", options->scan, "Mesh with vertex colours: .ply .obj .glb .gltf; or a range image: .png .tif .exr, with --texture")
       ->required()
       ->type_name("SCAN")
       ->check(not_empty());
@@ -207,6 +215,7 @@ Verb add_bake(CLI::App& root) {
                   "(default); or the paper's, on the corners of texels")
       ->type_name("inset|exact")
       ->check(CLI::IsMember({"inset", "exact"}));
+  add_range_options(*app, options->range);
   app->add_option("-o,--output", options->output, "Model to write, its texture beside or in it: .obj .ply .glb; for nearest lookup")
       ->required()
       ->type_name("MODEL")
@@ -214,6 +223,7 @@ Verb add_bake(CLI::App& root) {
   add_common_options(*app, options->common,
                      "  etalon bake scan.ply --faces 1000 -o scan1000.glb\n"
                      "  etalon bake scan.ply --tolerance 0.2% --size 1024x512 --fill exact -o near.obj\n"
+                     "  etalon bake depth.tif --texture colour.png --spacing 0.7 --depth-scale 0.1 --faces 2000 -o scan.glb\n"
                      "  etalon render near.obj --filter nearest -o near.png");
   return {app, [options] { return run(*options); }};
 }

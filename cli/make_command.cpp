@@ -11,6 +11,7 @@
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/make_range.h"
 #include "cli/model_input.h"
 #include "cli/usage_error.h"
 #include "core/io/mesh_file.h"
@@ -30,6 +31,7 @@ struct MakeOptions {
   std::string output;
   std::optional<int> faces;
   std::optional<int> texture_size;
+  std::optional<std::string> kind, image;
   bool open = false;
   CommonOptions common;
 };
@@ -104,8 +106,44 @@ nlohmann::ordered_json document_of(const MakeOptions& options, const Made& made)
   return document;
 }
 
+int run_make_range(const MakeOptions& options) {
+  if (options.faces) throw UsageError("--faces: range has as many triangles as its samples give");
+  if (options.texture_size) throw UsageError("--texture-size: range is coloured by vertex and has no texture");
+  if (options.open) throw UsageError("--open is of duck");
+  if (options.output == "-") throw UsageError("make: expected -o FILE.ply, .obj, .glb, .png, .tif or .exr");
+  require_writable_file(options.output);
+  require_writable_file(options.common.json);
+  Console console(console_options(options.common));
+  const MadeRange made = make_range({options.kind, options.image, options.output});
+  CallFiles files;
+  for (const std::filesystem::path& path : made.outputs) files.add_output(path.string(), "-o");
+  files.add_output(options.common.json, "--json");
+  {
+    const FinishWriting finish;
+    write_range(made);
+  }
+  console.line(fmt::format("{}: {}: {}x{} samples {} apart, {} of them there; {} vertices, {}{}", options.output, made.kind,
+                           made.range.width, made.range.height, made.range.spacing, validation::grouped(sample_count(made.range)),
+                           validation::grouped(made.mesh.vertex_count()), counted(made.mesh.face_count(), "face"),
+                           made.image.empty() ? "" : ", coloured by the " + made.image));
+  for (const std::filesystem::path& path : made.outputs) console.line("wrote " + path.string());
+  nlohmann::ordered_json document = document_of(options, {made.mesh, {}});
+  document["range"] = {{"kind", made.kind},
+                       {"image", made.image.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(made.image)},
+                       {"width", made.range.width},
+                       {"height", made.range.height},
+                       {"spacing", made.range.spacing},
+                       {"depth_step", procedural::kRangeStep},
+                       {"samples", sample_count(made.range)}};
+  write_document(options.common, document);
+  if (!options.common.json.empty() && options.common.json != "-") console.line("wrote " + options.common.json);
+  return kExitDone;
+}
+
 int run_make(const MakeOptions& options) {
   apply(options.common);
+  if (options.what == "range") return run_make_range(options);
+  if (options.kind || options.image) throw UsageError(fmt::format("{}: of range only", options.kind ? "--kind" : "--image"));
   if (options.output == "-") throw UsageError("make: a model and its texture are several files: expected -o FILE.obj, .ply or .glb");
   require_writable_file(options.output);
   require_writable_file(options.common.json);
@@ -135,12 +173,14 @@ int run_make(const MakeOptions& options) {
 Verb add_make(CLI::App& root) {
   const auto options = std::make_shared<MakeOptions>();
   CLI::App* app = root.add_subcommand("make", "Write a procedural model");
-  app->add_option("what", options->what,
-                  "With a texture: swirl, the curved grid of a swirled texture; head, the embedded default. With vertex colours: monkey, a "
-                  "mandrill's head; duck, a wooden drake; statue, a robed figure in marble; knot, a displaced torus knot")
+  app->add_option(
+         "what", options->what,
+         "With a texture: swirl, the curved grid of a swirled texture; head, the embedded default. With vertex colours: monkey, a "
+         "mandrill's head; duck, a wooden drake; statue, a robed figure in marble; knot, a displaced torus knot. A scan: range, one of "
+         "five range images of 256x256 samples in millimetres")
       ->required()
-      ->check(CLI::IsMember({"swirl", "head", "monkey", "duck", "statue", "knot"}))
-      ->type_name("swirl|head|monkey|duck|statue|knot");
+      ->check(CLI::IsMember({"swirl", "head", "monkey", "duck", "statue", "knot", "range"}))
+      ->type_name("swirl|head|monkey|duck|statue|knot|range");
   app->add_option(
          "--faces", options->faces,
          "How many triangles: exactly so for monkey (default 101,002) and statue (default 200,000), even numbers; about so for swirl "
@@ -150,11 +190,23 @@ Verb add_make(CLI::App& root) {
   app->add_option("--texture-size", options->texture_size, "Of swirl and head: side of the texture in texels (default 1024)")
       ->type_name("N")
       ->check(CLI::Range(64, 8192));
-  app->add_option("-o,--output", options->output, "Model to write, a texture STEM_texture.png beside it: .obj, .ply; or in one file: .glb")
+  app->add_option("--kind", options->kind, "Of range: which object (default telephone)")
+      ->type_name("shuttle|hand|soldier|teapot|telephone")
+      ->check(CLI::IsMember({"shuttle", "hand", "soldier", "teapot", "telephone"}));
+  app->add_option("--image", options->image,
+                  "Of range: the test image laid over it (a mesh: default chessboard; depths: none, else beside them as STEM_color.png)")
+      ->type_name("chessboard|ramp")
+      ->check(CLI::IsMember({"chessboard", "ramp"}));
+  app->add_option(
+         "-o,--output", options->output,
+         "Model to write, a texture STEM_texture.png beside it: .obj, .ply; or in one file: .glb. Of range also depths: .exr and .tif "
+         "in millimetres (float, no sample: NaN), .png in 1/256 mm (16 bits, no sample: 0)")
       ->required()
       ->type_name("FILE")
       ->check(not_empty());
-  add_common_options(*app, options->common, "  etalon make head -o head.obj\n  etalon make statue --faces 2351302 -o statue.ply");
+  add_common_options(*app, options->common,
+                     "  etalon make head -o head.obj\n  etalon make statue --faces 2351302 -o statue.ply\n"
+                     "  etalon make range --kind teapot --image ramp -o teapot.ply\n  etalon make range --kind hand -o hand.png");
   return {app, [options] { return run_make(*options); }};
 }
 

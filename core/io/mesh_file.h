@@ -38,7 +38,7 @@ struct LoadedModel {
 /// a model that has some get (0, 0), with a note.
 /// - OBJ: v is up and stays. `v x y z r g b [a]` are colours. A missing material library or texture is a note.
 /// - PLY: texture coordinates s t | u v | texture_u texture_v of vertices, or a `texcoord` list of faces with `texnumber` and
-///   `comment TextureFile NAME`; v is up and stays. Element `tristrips` too.
+///   `comment TextureFile NAME`; v is up and stays. Elements `tristrips`, `range_grid` too.
 /// - glTF: v runs down there, so v = 1 − v_file in float32: exact for v_file in [0.5, 2] (Sterbenz' lemma), else rounded once.
 ///   Node transforms are applied in double and rounded once; a mirrored one turns its triangles around. All meshes of the default scene
 ///   are joined.

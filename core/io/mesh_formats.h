@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace etalon::io {
 
 /// `path` names the file in messages and the folder in which the files that it names are looked for.
 [[nodiscard]] LoadedModel read_obj(const std::filesystem::path& path, const FileBytes& content);
-[[nodiscard]] LoadedModel read_ply(const std::filesystem::path& path, const FileBytes& content);
+/// `max_jump`: of range grids (range_grid.h).
+[[nodiscard]] LoadedModel read_ply(const std::filesystem::path& path, const FileBytes& content, std::optional<double> max_jump = {});
 [[nodiscard]] LoadedModel read_gltf(const std::filesystem::path& path, const FileBytes& content);
 
 /// `credit`: one line, or empty.

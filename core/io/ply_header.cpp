@@ -63,7 +63,8 @@ class HeaderParser {
   }
 
   void read_statement(std::string_view keyword, std::string_view rest) {
-    if (keyword.empty() || keyword == "obj_info") return;
+    if (keyword.empty()) return;
+    if (keyword == "obj_info") return read_info(rest);
     if (keyword == "comment") {
       if (take_word(rest) == "TextureFile") header_.texture_names.emplace_back(trimmed(rest));
       return;
@@ -72,6 +73,15 @@ class HeaderParser {
     if (keyword == "element") return read_element(rest);
     if (keyword == "property") return read_property(rest);
     fail(fmt::format("expected format, comment, obj_info, element, property or end_header, got '{}'", printable(keyword)));
+  }
+
+  /// The sizes of a range grid; whatever else stands there is the writer's own.
+  void read_info(std::string_view rest) {
+    const std::string_view key = take_word(rest);
+    if (key != "num_cols" && key != "num_rows") return;
+    const std::optional<std::int64_t> count = parse_integer(trimmed(rest));
+    if (!count || *count < 1) fail(fmt::format("{}: expected a count from 1, got '{}'", key, printable(trimmed(rest))));
+    (key == "num_cols" ? header_.grid_columns : header_.grid_rows) = static_cast<std::uint64_t>(*count);
   }
 
   void read_format(std::string_view rest) {

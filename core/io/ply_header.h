@@ -33,6 +33,8 @@ struct PlyHeader {
   PlyEncoding encoding = PlyEncoding::ascii;
   std::vector<PlyElement> elements;        ///< in file order
   std::vector<std::string> texture_names;  ///< of `comment TextureFile NAME` lines
+  std::uint64_t grid_columns = 0;          ///< of `obj_info num_cols N`; 0: not said
+  std::uint64_t grid_rows = 0;             ///< of `obj_info num_rows N`
   std::size_t body_offset_bytes = 0;       ///< first byte after the header
   std::size_t line_count = 0;              ///< lines of the header
 };

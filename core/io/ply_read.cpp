@@ -8,6 +8,8 @@
 #include "core/io/mesh_formats.h"
 #include "core/io/ply_header.h"
 #include "core/io/ply_source.h"
+#include "core/io/range_file.h"
+#include "core/io/range_grid.h"
 #include "core/io/triangle_soup.h"
 #include "core/mesh/weld.h"
 
@@ -76,7 +78,8 @@ float color_maximum(PlyType type) {
 template <class Source>
 class BodyReader {
  public:
-  BodyReader(const fs::path& path, const PlyHeader& header, Source source) : path_(path), header_(header), source_(std::move(source)) {
+  BodyReader(const fs::path& path, const PlyHeader& header, std::optional<double> max_jump, Source source)
+      : path_(path), header_(header), max_jump_(max_jump), source_(std::move(source)) {
     for (const PlyElement& e : header.elements)
       if (e.name == "vertex") vertex_count_ = e.count;
   }
@@ -89,11 +92,14 @@ class BodyReader {
         read_faces(element);
       else if (element.name == "tristrips")
         read_strips(element);
+      else if (element.name == "range_grid")
+        read_grid(element);
       else
         skip_rows(element);
     }
+    if (soup_.faces.empty() && !grid_.vertices.empty()) triangulate_grid();
     if (soup_.faces.empty())
-      fail_file(path_.string(), "no faces: expected an element 'face' or 'tristrips' with at least one row, got none");
+      fail_file(path_.string(), "no faces: expected an element 'face', 'tristrips' or 'range_grid' with at least one row, got none");
     drop_unused_face_data();
     // One coordinate per vertex means that the writer had to split the vertices along seams.
     const bool split_at_seams = !soup_.vertex_uvs.empty();
@@ -254,6 +260,54 @@ class BodyReader {
       }
   }
 
+  /// Each row a list of no or one vertex.
+  void read_grid(const PlyElement& element) {
+    if (element.count == 0) return;
+    const std::string file = path_.string();
+    grid_.columns = header_.grid_columns;
+    grid_.rows = header_.grid_rows;
+    if (grid_.columns == 0 || grid_.rows == 0)
+      fail_file(file, "element 'range_grid': expected lines 'obj_info num_cols N' and 'obj_info num_rows N' in the header, got none");
+    // By division: the product of two counts may not fit.
+    if (element.count > kMaxRangeSamples || element.count % grid_.columns != 0 || element.count / grid_.columns != grid_.rows)
+      fail_file(file, fmt::format("element 'range_grid': expected {} x {} rows, at most {}, got {}", grid_.columns, grid_.rows,
+                                  kMaxRangeSamples, element.count));
+    const auto is_indices = [](const PlyProperty& p) { return face_role(p) == FaceRole::indices; };
+    if (std::count_if(element.properties.begin(), element.properties.end(), is_indices) != 1)
+      fail_file(file, "element 'range_grid': expected one list 'vertex_indices'");
+    grid_.vertices.reserve(element.count);
+    for (std::uint64_t row = 0; row < element.count; ++row)
+      for (const PlyProperty& p : element.properties) {
+        if (!is_indices(p)) {
+          skip_property(p);
+          continue;
+        }
+        const std::uint64_t count = list_count(p);
+        if (count > 1) source_.fail(fmt::format("range_grid {}: expected no or one vertex, got {}", row, count));
+        grid_.vertices.push_back(count == 0 ? RangeGrid::kNoSample : grid_vertex(p, row));
+      }
+  }
+
+  std::uint32_t grid_vertex(const PlyProperty& p, std::uint64_t row) {
+    const std::int64_t index = source_.integer(p.type);
+    if (index < 0 || static_cast<std::uint64_t>(index) >= vertex_count_)
+      source_.fail(
+          fmt::format("range_grid {}: vertex index expected 0 to {}, got {}", row, static_cast<std::int64_t>(vertex_count_) - 1, index));
+    return static_cast<std::uint32_t>(index);
+  }
+
+  void triangulate_grid() {
+    if (soup_.positions.size() != vertex_count_) fail_file(path_.string(), "element 'range_grid': expected an element 'vertex'");
+    soup_.faces = range_grid_faces(grid_, soup_.positions, max_jump_);
+    if (soup_.faces.empty())
+      fail_file(path_.string(),
+                fmt::format("a range grid of {}x{}: expected neighbours without a jump in depth, got none", grid_.columns, grid_.rows));
+    model_.notes.push_back(fmt::format(
+        "{}: a range grid of {}x{} samples, {} of them there, as {} triangles", path_.filename().string(), grid_.columns, grid_.rows,
+        grid_.vertices.size() - static_cast<std::size_t>(std::count(grid_.vertices.begin(), grid_.vertices.end(), RangeGrid::kNoSample)),
+        soup_.faces.size()));
+  }
+
   void skip_property(const PlyProperty& p) {
     if (!p.is_list) return source_.skip(p.type, 1);
     source_.skip(p.type, list_count(p));
@@ -308,6 +362,7 @@ class BodyReader {
 
   const fs::path& path_;
   const PlyHeader& header_;
+  std::optional<double> max_jump_;
   Source source_;
   LoadedModel model_;
   TriangleSoup soup_;
@@ -315,6 +370,7 @@ class BodyReader {
   bool has_color_ = false;
   bool has_uv_ = false;
   std::uint64_t faces_without_uv_ = 0;
+  RangeGrid grid_;
   std::vector<std::uint32_t> indices_;
   std::vector<float> corner_uvs_;
   std::vector<std::uint32_t> texture_numbers_;
@@ -322,15 +378,20 @@ class BodyReader {
 
 }  // namespace
 
-LoadedModel read_ply(const fs::path& path, const FileBytes& content) {
+LoadedModel read_ply(const fs::path& path, const FileBytes& content, std::optional<double> max_jump) {
   const std::string file = path.string();
   const PlyHeader header = parse_ply_header(file, content.text());
   switch (header.encoding) {
-    case PlyEncoding::ascii: return BodyReader(path, header, AsciiSource(file, content.text(), header)).read();
-    case PlyEncoding::little_endian: return BodyReader(path, header, BinarySource<false>(file, content.bytes(), header)).read();
-    case PlyEncoding::big_endian: return BodyReader(path, header, BinarySource<true>(file, content.bytes(), header)).read();
+    case PlyEncoding::ascii: return BodyReader(path, header, max_jump, AsciiSource(file, content.text(), header)).read();
+    case PlyEncoding::little_endian: return BodyReader(path, header, max_jump, BinarySource<false>(file, content.bytes(), header)).read();
+    case PlyEncoding::big_endian: return BodyReader(path, header, max_jump, BinarySource<true>(file, content.bytes(), header)).read();
   }
   fail_file(file, "unknown PLY encoding");
+}
+
+LoadedModel read_range_ply(const fs::path& path, std::optional<double> max_jump) {
+  if (max_jump && !(*max_jump > 0)) fail_file(path.string(), fmt::format("largest jump: expected a length above 0, got {}", *max_jump));
+  return read_ply(path, read_file(path), max_jump);
 }
 
 }  // namespace etalon::io

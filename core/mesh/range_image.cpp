@@ -37,18 +37,19 @@ double jump(const Sample& a, const Sample& b) { return std::fabs(a.z - b.z); }
 
 class Triangulator {
  public:
-  Triangulator(const RangeImage& range, double max_jump) : range_(range), max_jump_(max_jump) {}
+  Triangulator(int width, int height, std::span<const float> depth, double max_jump)
+      : width_(width), height_(height), depth_(depth), max_jump_(max_jump) {}
 
   std::vector<std::array<std::uint32_t, 3>> faces() {
-    for (int j = 0; j + 1 < range_.height; ++j)
-      for (int i = 0; i + 1 < range_.width; ++i) add_cell(i, j);
+    for (int j = 0; j + 1 < height_; ++j)
+      for (int i = 0; i + 1 < width_; ++i) add_cell(i, j);
     return std::move(faces_);
   }
 
  private:
   [[nodiscard]] Sample sample(int i, int j) const {
-    const std::uint32_t index = static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(range_.width) + static_cast<std::uint32_t>(i);
-    return {index, double{range_.z[index]}};
+    const std::uint32_t index = static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(width_) + static_cast<std::uint32_t>(i);
+    return {index, double{depth_[index]}};
   }
 
   void add_cell(int i, int j) {
@@ -78,12 +79,17 @@ class Triangulator {
     faces_.push_back({a.index, b.index, c.index});
   }
 
-  const RangeImage& range_;
+  int width_, height_;
+  std::span<const float> depth_;
   double max_jump_;
   std::vector<std::array<std::uint32_t, 3>> faces_;
 };
 
 }  // namespace
+
+std::vector<std::array<std::uint32_t, 3>> grid_triangles(int width, int height, std::span<const float> depth, double max_jump) {
+  return Triangulator(width, height, depth, max_jump).faces();
+}
 
 std::size_t sample_count(const RangeImage& range) {
   std::size_t count = 0;
@@ -94,7 +100,7 @@ std::size_t sample_count(const RangeImage& range) {
 Mesh triangulate(const RangeImage& range, std::span<const std::byte> rgb, const TriangulateOptions& options) {
   const double max_jump = options.max_jump.value_or(4 * range.spacing);
   require(range, rgb, max_jump);
-  const std::vector<std::array<std::uint32_t, 3>> faces = Triangulator(range, max_jump).faces();
+  const std::vector<std::array<std::uint32_t, 3>> faces = grid_triangles(range.width, range.height, range.z, max_jump);
 
   std::vector<std::uint32_t> vertex(range.z.size(), kUnused);
   for (const auto& face : faces)

@@ -2,7 +2,9 @@
 // and its triangulation.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,5 +41,9 @@ struct TriangulateOptions {
 /// `rgb`: empty, or 3 bytes a sample in the order of `z` (the bytes of an RGB unorm8 image of this size): vertex colours i/255, alpha 1.
 /// No faces where no triangle is left. InputError where sizes do not fit each other, or the spacing or max_jump is not above 0.
 [[nodiscard]] Mesh triangulate(const RangeImage& range, std::span<const std::byte> rgb = {}, const TriangulateOptions& options = {});
+
+/// The triangles of a grid by the rules above, as indices of samples; `depth` row-major, not finite: no sample; max_jump above 0.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> grid_triangles(int width, int height, std::span<const float> depth,
+                                                                       double max_jump);
 
 }  // namespace etalon

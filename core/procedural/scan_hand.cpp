@@ -34,8 +34,9 @@ double finger(const Vec3d& q, const Finger& f) {
     const Vec3d from = q - f.at[k];
     const double along = dot(from, way);
     // A joint is thicker, with three folds of skin over it.
-    d -= 0.7 * bump(along, 9);
-    for (int fold = -1; fold <= 1; ++fold) d += 0.5 * bump(along - 2.3 * fold, 1.0) * smooth_step(1, 5, from.z);
+    d -= 0.6 * bump(along, 11);
+    for (int fold = -1; fold <= 1; ++fold)
+      d += (0.32 - 0.1 * fold * fold) * bump(along - 2.5 * fold + 0.12 * q.x, 1.5) * smooth_step(2, 7, from.z);
   }
   // The nail: a plate a little above the skin with a rim behind it.
   const Vec3d way = normalized(f.at[3] - f.at[2]);
@@ -57,9 +58,9 @@ double palm(const Vec3d& q) {
     const Vec3d& knuckle = fingers()[k].at[0];
     d = smooth_min(d, round_cone(q, {0.30 * knuckle.x, -58, 34}, knuckle + Vec3d(0, -3, 4.5), 2.4, 4.6), 6);
   }
-  const double vein = 12 + 7 * sin_turns(q.y / 58 + 0.1);
-  d -= 0.9 * bump(q.x - vein, 2.2) * smooth_step(-72, -58, q.y) * smooth_step(8, -8, q.y) * smooth_step(26, 32, q.z);
-  return d - 0.8 * bump(q.x + 8 - 0.3 * q.y - 4 * sin_turns(q.y / 37), 2.0) * smooth_step(-66, -52, q.y) * smooth_step(2, -12, q.y) *
+  const double vein = 10 - 0.10 * q.y + 2.6 * sin_turns(q.y / 41 + 0.1);
+  d -= 0.6 * bump(q.x - vein, 3.2) * smooth_step(-72, -58, q.y) * smooth_step(8, -8, q.y) * smooth_step(26, 32, q.z);
+  return d - 0.5 * bump(q.x + 7 - 0.28 * q.y - 1.8 * sin_turns(q.y / 33), 2.8) * smooth_step(-66, -52, q.y) * smooth_step(2, -12, q.y) *
                  smooth_step(26, 32, q.z);
 }
 
@@ -74,8 +75,8 @@ double hand_field(const Vec3d& p) {
     const double one = finger(q, f);
     d = std::fmin(d, smooth_min(one, body, mix(9, 1.5, clamp01(length(q - f.at[0]) / 40))));
   }
-  const double cuff = std::fmax(length2(q.x - 2, (q.z - 24) * 1.25) - 30, std::fabs(q.y + 104) - 12);
-  return std::fmin(std::fmax(d, -106 - q.y), smooth_max(cuff, -q.y - 98 - 14, 2));
+  const double cuff = std::fmax(length2(q.x - 2, (q.z - 24) * 1.25) - 30, std::fabs(q.y + 90) - 9);
+  return std::fmin(std::fmax(d, -99 - q.y), cuff);
 }
 
 }  // namespace etalon::procedural

@@ -1,4 +1,5 @@
 // A toy soldier on guard, from the front: bearskin, tunic with belts, arms before the chest, a rifle in front of all, on a stand.
+#include "core/procedural/noise.h"
 #include "core/procedural/scan_shapes.h"
 
 namespace etalon::procedural {
@@ -51,7 +52,7 @@ double head(const Vec3d& q) {
   // The bearskin: a tall cap with tufts, and its chain.
   double cap = round_cone(q, {0, 66, kMiddle}, {0, 80, kMiddle}, 15.6, 14.4);
   cap = smooth_max(cap, 60.5 + 0.10 * p.x - q.y, 2);
-  cap += 0.55 * sin_turns(q.y / 7 + 0.35 * sin_turns(q.x / 13)) * sin_turns(q.x / 6.5 + 0.3 * sin_turns(q.y / 11));
+  cap += 0.9 * value_noise({q.x / 3.4 + 0.2 * q.y, q.y / 8.0, q.z / 5.0}, 17);
   const double collar = rounded_disc(length2(q.x, q.z - kMiddle), q.y - 38.5, 10.4, 3.4, 1.2);
   return std::fmin(std::fmin(d, cap * 0.85), collar);
 }

@@ -23,6 +23,18 @@ double chain(const Vec3d& q, const std::array<Bead, kCount>& beads, double k) {
   return d;
 }
 
+/// Outline of the flowers in relief around the belly: five petals, a ring about their middle left out; negative inside.
+double rosettes(const Vec3d& q) {
+  double outline = 1e30;
+  for (int k = -1; k <= 1; ++k) {
+    const double u = (q.x - 33 * k) * (1 + 0.16 * k * k), v = q.y + 9, r2 = u * u + v * v + 1e-9, r = std::sqrt(r2);
+    const double cos5 = v * (v * v * v * v - 10 * v * v * u * u + 5 * u * u * u * u) / (r2 * r2 * r);  // of five times the angle from up
+    const double petals = r - 8.6 - 3.4 * cos5;
+    outline = std::fmin(outline, std::fmax(petals, 1.1 - std::fabs(r - 3.6)));
+  }
+  return outline;
+}
+
 double body(const Vec3d& q) {
   const double r = length2(q.x, q.z - kMiddle);
   const Vec3d turned(r, q.y, 0);
@@ -31,10 +43,7 @@ double body(const Vec3d& q) {
   d = smooth_min(d, rounded_disc(r, q.y + 51, 34, 4.5, 1.5), 5);  // foot
   d = std::fmax(d, -54.5 - q.y);
   for (int k = 0; k < 2; ++k) d += 0.8 * bump(q.y - 14 + 46 * k, 1.5) * smooth_step(20, 30, r);  // turned grooves
-  // A relief of leaves around the belly.
-  const double band = bump(q.y + 9, 17);
-  const double leaf = sin_turns(q.x / 26 + 0.07 * q.y / 5) + 0.5 * sin_turns(q.x / 13 - q.y / 24);
-  return d - 0.9 * band * smooth_step(0.35, 0.6, leaf);
+  return d - 0.8 * smooth_step(0.5, -0.5, rosettes(q)) * smooth_step(0, 10, q.z - kMiddle);
 }
 
 double lid(const Vec3d& q) {
@@ -49,7 +58,7 @@ double lid(const Vec3d& q) {
 
 double spout(const Vec3d& q) {
   static constexpr std::array<Bead, 5> kSpout = {{{42, -26, 16}, {62, -14, 12.5}, {73, 6, 9}, {81, 26, 7.2}, {90, 37, 6.2}}};
-  double d = chain(q, kSpout, 6);
+  double d = chain(q, kSpout, 1.5);
   const double along = (q.x - 88) * 0.45 + (q.y - 38.5) * 0.89;
   d = smooth_max(d, along - 1.5, 1);
   d = std::fmax(d, -(length(q - Vec3d(91, 42, kMiddle + 1)) - 5.2));
@@ -57,11 +66,10 @@ double spout(const Vec3d& q) {
 }
 
 double handle(const Vec3d& q) {
-  static constexpr std::array<Bead, 8> kHandle = {
-      {{-44, 18, 8}, {-60, 27, 6.5}, {-77, 26, 6}, {-88, 13, 6}, {-88, -5, 6}, {-79, -20, 6}, {-64, -31, 6.3}, {-48, -36, 8}}};
-  const double d = chain(q, kHandle, 4);
-  const double thumb = ellipsoid(q, {-78, 33, kMiddle}, {8, 4, 5});
-  return smooth_min(d, thumb, 3);
+  // A torus of oval section; what of it is inside the body does not show.
+  const double ring = length2((q.x + 60) * 0.96, q.y + 3) - 29;
+  const double d = length2(ring, (q.z - kMiddle) * 0.8) - 5.6;
+  return smooth_min(d, ellipsoid(q, {-72, 29.5, kMiddle}, {7, 4.2, 5}), 3);
 }
 
 }  // namespace

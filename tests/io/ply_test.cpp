@@ -199,9 +199,9 @@ TEST_CASE("ply: bad bodies") {
   CHECK(error(header("ascii", "element vertex 3\n" + kXyz + "property list uchar int extra\n" + kFaces1) +
               "0 0 0 0\n1 0 0 0\n0 1 0\n\n\n\n\n") == ":18: the file ends early: expected a number");
   CHECK(error(header("ascii", "element vertex 3\n" + kXyz) + good) ==
-        ": no faces: expected an element 'face' or 'tristrips' with at least one row, got none");
+        ": no faces: expected an element 'face', 'tristrips' or 'range_grid' with at least one row, got none");
   CHECK(error(header("ascii", "element vertex 3\n" + kXyz + "element face 0\nproperty list uchar int vertex_indices\n") + good) ==
-        ": no faces: expected an element 'face' or 'tristrips' with at least one row, got none");
+        ": no faces: expected an element 'face', 'tristrips' or 'range_grid' with at least one row, got none");
   CHECK(error(header("ascii", kFaces1) + "3 0 1 2\n") == ":6: face 0: vertex index expected 0 to -1, got 0");
   CHECK(error(header("ascii", "element vertex 3\nproperty float x\nproperty float y\n" + kFaces1) + "0 0\n1 0\n0 1\n3 0 1 2\n") ==
         ": element 'vertex': expected the properties x, y and z once each");
