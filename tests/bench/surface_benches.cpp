@@ -1,6 +1,7 @@
 #include "tests/bench/surface_benches.h"
 
 #include <filesystem>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -34,6 +35,20 @@ void absent(SurfaceResults& results, const std::string& scene) {
   ++results.skipped;
 }
 
+void measure_texture_scenes(const BenchOptions& options, SurfaceResults& results) {
+  for (const TextureScene& scene : texture_scenes()) {
+    if (!wants(options, scene.name)) continue;
+    const std::optional<Image> image = scene.make();
+    if (!image) {
+      absent(results, scene.name);
+      continue;
+    }
+    results.textures.push_back(measure_textures(scene, *image, openjpeg(), std::min(options.repetitions, kFewestRounds)));
+    ++results.measured;
+    report(results, scene.name, results.textures.back().figures);
+  }
+}
+
 void measure_distance_scene(const BenchOptions& options, SurfaceResults& results) {
   for (const SimplifyScene& scene : simplify_scenes()) {
     if (scene.name != "simplify-knot100k") continue;
@@ -46,12 +61,36 @@ void measure_distance_scene(const BenchOptions& options, SurfaceResults& results
   }
 }
 
+std::string with_machine(const nlohmann::ordered_json& document, const std::function<std::string()>& make_tables) {
+  try {
+    const std::string tables = make_tables();
+    if (tables.empty()) return tables;
+    const auto& machine = document.at("machine");
+    return fmt::format("Measured on {}: {}, {} cores, {}, {}; load {:.1f} at the start. One thread, CPU seconds of the library's call.\n\n",
+                       machine.at("date").get<std::string>(), machine.at("cpu").get<std::string>(), machine.at("cores").get<int>(),
+                       machine.at("system").get<std::string>(), machine.at("compiler").get<std::string>(),
+                       machine.at("load").get<double>()) +
+           tables;
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(fmt::format("expected a document of --json: {}", error.what()));
+  }
+}
+
+std::string with_block(const std::string& page, const std::string& tables, const std::string& first_line, const std::string& last_line) {
+  const auto begin = page.find(first_line), end = page.find(last_line);
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw InputError(fmt::format("expected the lines {} and {}", first_line.substr(0, first_line.size() - 1),
+                                 last_line.substr(0, last_line.size() - 1)));
+  return page.substr(0, begin) + first_line + "\n" + tables + "\n" + page.substr(end);
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> surface_scene_titles() {
   std::vector<std::pair<std::string, std::string>> titles;
   for (const SimplifyScene& scene : simplify_scenes()) titles.emplace_back(scene.name, scene.title + (scene.is_long ? " (--long)" : ""));
   titles.emplace_back(kMetroScene, kMetroTitle);
+  for (const TextureScene& scene : texture_scenes()) titles.emplace_back(scene.name, scene.title + ", beside OpenJPEG");
   return titles;
 }
 
@@ -71,29 +110,27 @@ SurfaceResults measure_surface_scenes(const BenchOptions& options) {
     report(results, scene.name, results.simplifications.back().figures);
   }
   if (wants(options, kMetroScene)) measure_distance_scene(options, results);
+  measure_texture_scenes(options, results);
   return results;
 }
 
 void add_surface_results(const SurfaceResults& results, nlohmann::ordered_json& document) {
   if (!results.simplifications.empty()) document["simplification"] = simplify_document(results.simplifications);
   if (results.metro) document["metro"] = metro_document(*results.metro);
+  if (!results.textures.empty()) document["textures"] = texture_document(results.textures);
 }
 
 std::string surface_tables(const nlohmann::ordered_json& document) {
-  try {
+  return with_machine(document, [&] {
     std::string tables;
     if (document.contains("simplification")) tables += simplify_tables(document.at("simplification"));
     if (document.contains("metro")) tables += metro_tables(document.at("metro"));
-    if (tables.empty()) return tables;
-    const auto& machine = document.at("machine");
-    return fmt::format("Measured on {}: {}, {} cores, {}, {}; load {:.1f} at the start. One thread, CPU seconds of the library's call.\n\n",
-                       machine.at("date").get<std::string>(), machine.at("cpu").get<std::string>(), machine.at("cores").get<int>(),
-                       machine.at("system").get<std::string>(), machine.at("compiler").get<std::string>(),
-                       machine.at("load").get<double>()) +
-           tables;
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError(fmt::format("expected a document of --json: {}", error.what()));
-  }
+    return tables;
+  });
+}
+
+std::string stream_tables(const nlohmann::ordered_json& document) {
+  return with_machine(document, [&] { return document.contains("textures") ? texture_tables(document.at("textures")) : ""; });
 }
 
 std::string surface_picture(const nlohmann::ordered_json& document) {
@@ -101,10 +138,11 @@ std::string surface_picture(const nlohmann::ordered_json& document) {
 }
 
 std::string with_surface_tables(const std::string& page, const std::string& tables) {
-  const auto begin = page.find(kSurfaceBlockBegin), end = page.find(kSurfaceBlockEnd);
-  if (begin == std::string::npos || end == std::string::npos || end < begin)
-    throw InputError("expected the lines that begin and end the measured block of surfaces");
-  return page.substr(0, begin) + kSurfaceBlockBegin + "\n" + tables + "\n" + page.substr(end);
+  return with_block(page, tables, kSurfaceBlockBegin, kSurfaceBlockEnd);
+}
+
+std::string with_stream_tables(const std::string& page, const std::string& tables) {
+  return with_block(page, tables, kStreamBlockBegin, kStreamBlockEnd);
 }
 
 }  // namespace etalon::bench

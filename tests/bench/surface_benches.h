@@ -1,4 +1,4 @@
-// The scenes of simplification and of the surface distance, as etalon_bench runs them beside the drawings.
+// The scenes of simplification, of the surface distance and of texture streams, as etalon_bench runs them beside the drawings.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,14 @@
 #include "tests/bench/bench_options.h"
 #include "tests/bench/metro_bench.h"
 #include "tests/bench/simplify_bench.h"
+#include "tests/bench/texture_bench.h"
 
 namespace etalon::bench {
 
 struct SurfaceResults {
   std::vector<SimplifySceneResult> simplifications;
   std::optional<MetroBenchResult> metro;
+  std::vector<TextureSceneResult> textures;
   std::size_t measured = 0;
   int skipped = 0;
 };
@@ -25,15 +27,19 @@ struct SurfaceResults {
 /// Those that the options ask for.
 [[nodiscard]] SurfaceResults measure_surface_scenes(const BenchOptions& options);
 
-/// As document["simplification"] and document["metro"], where there are any.
+/// As document["simplification"], document["metro"] and document["textures"], where there are any.
 void add_surface_results(const SurfaceResults& results, nlohmann::ordered_json& document);
 /// Of such a document; empty where it has none.
 [[nodiscard]] std::string surface_tables(const nlohmann::ordered_json& document);
+[[nodiscard]] std::string stream_tables(const nlohmann::ordered_json& document);  ///< of textures
 [[nodiscard]] std::string surface_picture(const nlohmann::ordered_json& document);
-/// The page with its second measured block replaced. InputError where it has none.
+/// The page with its measured block of surfaces, or of textures, replaced. InputError where it has none.
 [[nodiscard]] std::string with_surface_tables(const std::string& page, const std::string& tables);
+[[nodiscard]] std::string with_stream_tables(const std::string& page, const std::string& tables);
 
 inline constexpr const char* kSurfaceBlockBegin = "<!-- measured surfaces: begin (etalon_bench --page) -->\n";
 inline constexpr const char* kSurfaceBlockEnd = "<!-- measured surfaces: end -->\n";
+inline constexpr const char* kStreamBlockBegin = "<!-- measured textures: begin (etalon_bench --page) -->\n";
+inline constexpr const char* kStreamBlockEnd = "<!-- measured textures: end -->\n";
 
 }  // namespace etalon::bench
