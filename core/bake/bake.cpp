@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/bake/seams.h"
+#include "core/bake/vertex_landings.h"
 #include "core/base/error.h"
 #include "core/mesh/weld.h"
 
@@ -59,6 +60,18 @@ Image painted(const Atlas& atlas, const std::vector<Rgb8>& colors) {
   return image;
 }
 
+// With a tolerance every vertex is followed over the surface, since every collapse is judged by how far that goes.
+simplify::SimplifyResult decimated(const Mesh& dense, const BakeOptions& options) {
+  simplify::SimplifyOptions how{.target_faces = options.target_faces, .tolerance = options.tolerance, .progress = options.progress};
+  if (options.tolerance) return simplify::simplify_mesh(dense, how);
+  CollapseTrail trail(dense.vertex_count());
+  how.before_collapse = [&](const simplify::CollapseMesh& mesh, const simplify::CollapseEvent& event) { trail.record(mesh, event); };
+  simplify::SimplifyResult result = simplify::simplify_mesh(dense, how);
+  result.landings = land_vertices(dense, result, trail);
+  result.distance_max = largest_distance(dense, result.mesh, result.landings);
+  return result;
+}
+
 TexelCounts counts_of(const Atlas& atlas, const TexelColors& colors) {
   TexelCounts counts{.atlas = static_cast<std::uint64_t>(atlas.width) * static_cast<std::uint64_t>(atlas.height),
                      .inside = colors.hits.size()};
@@ -76,8 +89,7 @@ BakeResult bake_scan(const Mesh& scan, const BakeOptions& options) {
   require_input(scan, options);
   const Mesh dense = bare_scan(scan);
   BakeResult result;
-  result.simplified = simplify::simplify_mesh(
-      dense, {.target_faces = options.target_faces, .tolerance = options.tolerance, .record_landings = true, .progress = options.progress});
+  result.simplified = decimated(dense, options);
   const Mesh& mesh = result.simplified.mesh;
 
   result.spacing = mean_edge_length(dense);

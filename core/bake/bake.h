@@ -48,7 +48,8 @@ struct BakeResult {
   int seam_residual = 0;         ///< largest_seam_residual() of the texture
 };
 
-/// Simplifies by qem half-edge collapses, which follow every vertex, and bakes the colours (their first three channels). Texture
+/// Simplifies by qem half-edge collapses and bakes the colours (their first three channels). Every vertex lands near where the collapses took
+/// it: without a tolerance as land_vertices() says, with one where the simplifier followed it to, never farther than the tolerance. Texture
 /// coordinates and materials of the scan count for nothing; vertices of equal place and colour are welded. Where the scan is no oriented
 /// manifold, places stay as they are (simplified.repair). Triangles of zero area get texels like others; of what falls on them all are used.
 /// The same bytes for every thread count. InputError: no vertex colours, a tolerance not above 0, a colour that is not finite, what

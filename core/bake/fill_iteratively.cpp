@@ -9,6 +9,18 @@ namespace {
 
 using Nearest = std::pair<std::uint64_t, std::uint32_t>;  // distance, source
 
+/// Whether what lies at `from`, having `offset`, is nearer to `to` than `best`, without the root of grid_distance(): most neighbours have
+/// nothing better to offer.
+bool is_nearer(const Nearest& offset, const GridPoint& from, const GridPoint& to, const Nearest& best) {
+  if (offset.first > best.first) return false;
+  const std::uint64_t room = best.first - offset.first;
+  if (room > std::uint64_t{1} << 31) return true;  // no two centres are that far apart
+  const std::uint64_t squared = squared_grid_distance(from, to);
+  if (squared > room * room) return false;
+  const bool equal = room == 0 || squared > (room - 1) * (room - 1);  // the root, rounded up, is `room`
+  return !equal || offset.second < best.second;
+}
+
 class IterativeFill {
  public:
   explicit IterativeFill(const FillProblem& problem) : problem_(problem), nodes_(problem.nodes), hits_(problem.colors) {
@@ -61,9 +73,10 @@ class IterativeFill {
     // Whether `feature` is nearer to t than what t has.
     const auto try_feature = [&](std::uint32_t t, std::uint32_t feature) {
       if (feature == kNoGroup || feature == t) return;
-      const Nearest offered{fill_.distance[feature] + grid_distance(centers[t - first], centers[feature - first]), fill_.source[feature]};
-      if (offered >= at(t)) return;
-      set(t, offered);
+      const GridPoint &from = centers[feature - first], &to = centers[t - first];
+      const Nearest offset = at(feature);
+      if (!is_nearer(offset, from, to, at(t))) return;
+      set(t, {offset.first + grid_distance(from, to), offset.second});
       fill_.feature[t] = feature;
       changed = true;
     };

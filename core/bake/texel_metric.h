@@ -14,10 +14,15 @@ struct GridPoint {
   friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
 
+/// In grid steps, squared: at most 3·2^60.
+[[nodiscard]] inline std::uint64_t squared_grid_distance(const GridPoint& a, const GridPoint& b) {
+  const std::int64_t dx = std::int64_t{a.x} - b.x, dy = std::int64_t{a.y} - b.y, dz = std::int64_t{a.z} - b.z;
+  return static_cast<std::uint64_t>(dx * dx + dy * dy + dz * dz);
+}
+
 /// The distance in grid steps, rounded up: at most 2^31. Rounded up it still obeys the triangle inequality, exactly.
 [[nodiscard]] inline std::uint64_t grid_distance(const GridPoint& a, const GridPoint& b) {
-  const std::int64_t dx = std::int64_t{a.x} - b.x, dy = std::int64_t{a.y} - b.y, dz = std::int64_t{a.z} - b.z;
-  const auto squared = static_cast<std::uint64_t>(dx * dx + dy * dy + dz * dz);  // below 3·2^60
+  const std::uint64_t squared = squared_grid_distance(a, b);
   auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(squared)));
   while (root * root < squared) ++root;
   while (root > 0 && (root - 1) * (root - 1) >= squared) --root;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <queue>
 #include <utility>
 
@@ -10,7 +11,6 @@
 
 #include "core/base/error.h"
 #include "core/math/nearest_point.h"
-#include "core/mesh/adjacency.h"
 
 namespace etalon::bake {
 namespace {
@@ -91,14 +91,34 @@ class Filter {
 }  // namespace
 
 double mean_edge_length(const Mesh& mesh) {
-  const Adjacency adjacency(mesh);
+  // The upper ends of all sides, grouped by their lower end: each edge is in one group, as often as it has faces.
+  std::vector<std::size_t> starts(mesh.vertex_count() + 1, 0);
+  const auto for_each_side = [&](const auto& visit) {
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f)
+      for (int c = 0; c < 3; ++c) {
+        const std::uint32_t a = mesh.vertex(FaceId(f), c).index, b = mesh.vertex(FaceId(f), (c + 1) % 3).index;
+        if (a != b) visit(std::min(a, b), std::max(a, b));
+      }
+  };
+  for_each_side([&](std::uint32_t low, std::uint32_t) { ++starts[low + 1]; });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<std::uint32_t> highs(starts.back());
+  std::vector<std::size_t> next(starts.begin(), starts.end() - 1);
+  for_each_side([&](std::uint32_t low, std::uint32_t high) { highs[next[low]++] = high; });
   double sum = 0;
-  for (std::uint32_t e = 0; e < adjacency.edge_count(); ++e) {
-    const HalfEdgeId h = adjacency.half_edges(EdgeId(e))[0];
-    const Vec3d d = difference_of(mesh.positions[adjacency.start(h)], mesh.positions[adjacency.end(h)]);
-    sum += std::sqrt(dot_product(d, d));
+  std::size_t count = 0;
+  for (std::uint32_t low = 0; low < mesh.vertex_count(); ++low) {
+    const auto first = highs.begin() + static_cast<std::ptrdiff_t>(starts[low]),
+               last = highs.begin() + static_cast<std::ptrdiff_t>(starts[low + 1]);
+    std::sort(first, last);
+    for (auto high = first; high != last; ++high) {
+      if (high != first && *high == *(high - 1)) continue;
+      const Vec3d d = difference_of(mesh.positions[low], mesh.positions[*high]);
+      sum += std::sqrt(dot_product(d, d));
+      ++count;
+    }
   }
-  return adjacency.edge_count() == 0 ? 0 : sum / static_cast<double>(adjacency.edge_count());
+  return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 
 std::vector<double> size_ratios(const Mesh& mesh, double spacing) {

@@ -67,7 +67,7 @@ std::string usage() {
       "usage: etalon_bench [OPTIONS] [--benchmark_OPTIONS]\n"
       "Times the CPU renderer, llvmpipe and the limits of memory in turns, on drawings that both get alike; simplification beside CGAL, "
       "OpenMesh\n"
-      "and meshoptimizer; the surface distance beside MeshLab; texture streams beside OpenJPEG. Prints the ratios.\n"
+      "and meshoptimizer; the surface distance and baking beside MeshLab; texture streams beside OpenJPEG. Prints the ratios.\n"
       "\n"
       "  --scene NAME       only scenes whose name contains NAME; may be repeated\n"
       "  --list             the names of the scenes\n"

@@ -121,17 +121,18 @@ std::vector<raster::SimdLevel> levels_beside_reference(bool all) {
 void write_results(const nlohmann::ordered_json& document, const BenchOptions& options) {
   if (!options.json.empty()) io::write_file(options.json, document.dump(2) + "\n");
   const std::string tables = document.at("scenes").empty() ? "" : bench_tables(document), surfaces = surface_tables(document);
-  const std::string textures = stream_tables(document);
+  const std::string textures = stream_tables(document), baking = bake_block(document);
   if (!options.page.empty()) {
     std::string page(io::read_file(options.page).text());
     if (!tables.empty()) page = with_tables(page, tables);
     if (!surfaces.empty()) page = with_surface_tables(page, surfaces);
     if (!textures.empty()) page = with_stream_tables(page, textures);
+    if (!baking.empty()) page = with_bake_tables(page, baking);
     io::write_file(options.page, page);
   }
   if (const std::string picture = surface_picture(document); !options.picture.empty() && !picture.empty())
     io::write_file(options.picture, picture);
-  fmt::print("\n{}{}{}\n", tables, surfaces, textures);
+  fmt::print("\n{}{}{}{}\n", tables, surfaces, textures, baking);
 }
 
 int measure(const BenchOptions& options) {

@@ -91,6 +91,7 @@ std::vector<std::pair<std::string, std::string>> surface_scene_titles() {
   for (const SimplifyScene& scene : simplify_scenes()) titles.emplace_back(scene.name, scene.title + (scene.is_long ? " (--long)" : ""));
   titles.emplace_back(kMetroScene, kMetroTitle);
   for (const TextureScene& scene : texture_scenes()) titles.emplace_back(scene.name, scene.title + ", beside OpenJPEG");
+  for (const auto& title : bake_scene_titles()) titles.push_back(title);
   return titles;
 }
 
@@ -111,12 +112,17 @@ SurfaceResults measure_surface_scenes(const BenchOptions& options) {
   }
   if (wants(options, kMetroScene)) measure_distance_scene(options, results);
   measure_texture_scenes(options, results);
+  results.baking = measure_bake_scenes(options, ETALON_PROGRAM);
+  for (const std::string& scene : results.baking.absent) absent(results, scene);
+  results.measured += results.baking.measured;
+  report(results, "bake", bake_figures(results.baking.result));
   return results;
 }
 
 void add_surface_results(const SurfaceResults& results, nlohmann::ordered_json& document) {
   if (!results.simplifications.empty()) document["simplification"] = simplify_document(results.simplifications);
   if (results.metro) document["metro"] = metro_document(*results.metro);
+  if (results.baking.measured > 0) document["baking"] = bake_document(results.baking.result);
   if (!results.textures.empty()) document["textures"] = texture_document(results.textures);
 }
 
@@ -133,8 +139,14 @@ std::string stream_tables(const nlohmann::ordered_json& document) {
   return with_machine(document, [&] { return document.contains("textures") ? texture_tables(document.at("textures")) : ""; });
 }
 
+std::string bake_block(const nlohmann::ordered_json& document) {
+  return with_machine(document, [&] { return document.contains("baking") ? bake_tables(document.at("baking")) : ""; });
+}
+
 std::string surface_picture(const nlohmann::ordered_json& document) {
-  return document.contains("simplification") ? growth_picture(document.at("simplification")) : "";
+  if (document.contains("simplification"))
+    if (const std::string picture = growth_picture(document.at("simplification")); !picture.empty()) return picture;
+  return document.contains("baking") ? bake_growth_picture(document.at("baking")) : "";
 }
 
 std::string with_surface_tables(const std::string& page, const std::string& tables) {

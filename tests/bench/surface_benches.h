@@ -1,4 +1,4 @@
-// The scenes of simplification, of the surface distance and of texture streams, as etalon_bench runs them beside the drawings.
+// The scenes of simplification, of the surface distance, of texture streams and of baking, as etalon_bench runs them beside the drawings.
 #pragma once
 
 #include <optional>
@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/bench/bake_scenes.h"
 #include "tests/bench/bench_options.h"
 #include "tests/bench/metro_bench.h"
 #include "tests/bench/simplify_bench.h"
@@ -17,6 +18,7 @@ struct SurfaceResults {
   std::vector<SimplifySceneResult> simplifications;
   std::optional<MetroBenchResult> metro;
   std::vector<TextureSceneResult> textures;
+  BakeScenes baking;
   std::size_t measured = 0;
   int skipped = 0;
 };
@@ -27,11 +29,13 @@ struct SurfaceResults {
 /// Those that the options ask for.
 [[nodiscard]] SurfaceResults measure_surface_scenes(const BenchOptions& options);
 
-/// As document["simplification"], document["metro"] and document["textures"], where there are any.
+/// As document["simplification"], document["metro"], document["textures"] and document["baking"], where there are any.
 void add_surface_results(const SurfaceResults& results, nlohmann::ordered_json& document);
 /// Of such a document; empty where it has none.
 [[nodiscard]] std::string surface_tables(const nlohmann::ordered_json& document);
 [[nodiscard]] std::string stream_tables(const nlohmann::ordered_json& document);  ///< of textures
+[[nodiscard]] std::string bake_block(const nlohmann::ordered_json& document);     ///< of baking
+/// How simplification grows; where that was not measured, how baking does.
 [[nodiscard]] std::string surface_picture(const nlohmann::ordered_json& document);
 /// The page with its measured block of surfaces, or of textures, replaced. InputError where it has none.
 [[nodiscard]] std::string with_surface_tables(const std::string& page, const std::string& tables);

@@ -14,8 +14,8 @@ DrawnView draw_textured(Renderer& renderer, const TexturedMesh& what, const Came
   Frame frame{.width = width, .height = height, .guard = 2048, .state = {}, .targets = {}};
   frame.targets = {{TargetContent::color, kRgba8, {0, 0, 0, 1}}, {TargetContent::triangle_id, kR32ui, {}}};
   frame.state = renderer.supported_state(frame.state);
-  const Sampler linear{Filter::linear, Wrap::clamp, Wrap::clamp};
-  const Material material{.texture = what.texture, .sampler = linear, .indexing_map = what.map, .map_sampler = linear};
+  const Sampler sampler{what.filter, Wrap::clamp, Wrap::clamp};
+  const Material material{.texture = what.texture, .sampler = sampler, .indexing_map = what.map, .map_sampler = sampler};
   std::uint32_t materials = 1;
   for (const std::uint32_t m : what.mesh->face_materials) materials = std::max(materials, m + 1);
   std::vector<Image> images = renderer.render(make_scene(*what.mesh, std::vector<Material>(materials, material), camera, frame), frame);

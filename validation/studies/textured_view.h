@@ -11,11 +11,12 @@
 
 namespace etalon::validation {
 
-/// A mesh with its one texture, looked up linearly (clamped): at its own coordinates, or at those that an indexing map holds.
+/// A mesh with its one texture, looked up linearly (clamped) unless another filter is named: at its own coordinates, or at those that an indexing map holds.
 struct TexturedMesh {
   const Mesh* mesh = nullptr;
   std::shared_ptr<const Image> texture;
   std::shared_ptr<const Image> map;  ///< none: the texture itself
+  Filter filter = Filter::linear;
 };
 
 /// RGBA unorm8 on black, and ids. InputError as make_scene().

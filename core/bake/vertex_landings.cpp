@@ -1,0 +1,117 @@
+#include "core/bake/vertex_landings.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "core/mesh/adjacency.h"
+
+namespace etalon::bake {
+namespace {
+
+using simplify::kNone;
+
+constexpr std::size_t kGrain = 4096;  // vertices
+
+class Walk {
+ public:
+  explicit Walk(const Mesh& mesh) : adjacency_(mesh) {
+    corners_.reserve(mesh.face_count());
+    for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+      Corners corners;
+      for (int c = 0; c < 3; ++c) {
+        corners.vertex[static_cast<std::size_t>(c)] = mesh.vertex(FaceId(f), c).index;
+        corners.place[static_cast<std::size_t>(c)] = to_double(mesh.position(FaceId(f), c));
+      }
+      corners_.push_back(corners);
+    }
+  }
+
+  /// `met`: scratch, the vertices around which was looked before.
+  [[nodiscard]] Landing from(std::uint32_t start, const Vec3d& p, std::vector<std::uint32_t>& met) const {
+    Best best;
+    met.clear();
+    look_around(start, p, met, best);
+    while (best.face != kNone) {
+      const std::uint32_t before = best.face;
+      for (const std::uint32_t v : corners_[before].vertex)
+        if (!has(met, v)) look_around(v, p, met, best);
+      if (best.face == before) break;
+    }
+    return {.face = best.face == kNone ? FaceId() : FaceId(best.face), .weights = best.at.weights};
+  }
+
+ private:
+  struct Best {
+    NearestOnTriangle at{.distance2 = std::numeric_limits<double>::infinity()};
+    std::uint32_t face = kNone;
+  };
+
+  struct Corners {
+    std::array<std::uint32_t, 3> vertex{};
+    std::array<Vec3d, 3> place;
+  };
+
+  static bool has(const std::vector<std::uint32_t>& met, std::uint32_t v) { return std::find(met.begin(), met.end(), v) != met.end(); }
+
+  void look_around(std::uint32_t v, const Vec3d& p, std::vector<std::uint32_t>& met, Best& best) const {
+    for (const FaceId f : adjacency_.faces_around(v)) {
+      const Corners& corners = corners_[f.index];
+      if (has(met, corners.vertex[0]) || has(met, corners.vertex[1]) || has(met, corners.vertex[2])) continue;
+      const NearestOnTriangle found = nearest_on_triangle(p, corners.place[0], corners.place[1], corners.place[2]);
+      if (found.distance2 > best.at.distance2 || (found.distance2 == best.at.distance2 && f.index >= best.face)) continue;
+      best = {found, f.index};
+    }
+    met.push_back(v);
+  }
+
+  const Adjacency adjacency_;
+  std::vector<Corners> corners_;  // #F
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> CollapseTrail::survivors(const simplify::SimplifyResult& result) const {
+  std::vector<std::uint32_t> survivor(into_.size(), kNone);
+  std::vector<bool> known(into_.size(), false);
+  for (std::uint32_t v = 0; v < result.source_vertex.size(); ++v) {
+    survivor[result.source_vertex[v].index] = v;
+    known[result.source_vertex[v].index] = true;
+  }
+  // A vertex of the input that was several of the engine's went into the one that its last one went into: so it was still there then, and
+  // the way ends.
+  std::vector<std::uint32_t> way;
+  for (std::uint32_t v = 0; v < into_.size(); ++v) {
+    std::uint32_t at = v;
+    for (way.clear(); !known[at] && into_[at] != kNone; at = into_[at]) way.push_back(at);
+    for (const std::uint32_t w : way) {
+      survivor[w] = survivor[at];
+      known[w] = true;
+    }
+  }
+  return survivor;
+}
+
+std::vector<Landing> land_vertices(const Mesh& scan, const simplify::SimplifyResult& result, const CollapseTrail& trail) {
+  const std::vector<std::uint32_t> survivors = trail.survivors(result);
+  const Walk walk(result.mesh);
+  std::vector<Landing> landings(scan.vertex_count());
+  parallel_for_blocks(landings.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> met;
+    for (std::size_t v = begin; v < end; ++v)
+      if (survivors[v] != kNone) landings[v] = walk.from(survivors[v], to_double(scan.positions[v]), met);
+  });
+  return landings;
+}
+
+double largest_distance(const Mesh& scan, const Mesh& mesh, const std::vector<Landing>& landings) {
+  double distance2 = 0;
+  for (std::size_t v = 0; v < landings.size(); ++v)
+    if (landings[v].face.valid())
+      distance2 = std::max(distance2, squared_distance(to_double(scan.positions[v]), landing_point(mesh, landings[v])));
+  return std::sqrt(distance2);
+}
+
+}  // namespace etalon::bake
