@@ -12,6 +12,7 @@
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
 #include "cli/make_range.h"
+#include "cli/make_terrain.h"
 #include "cli/model_input.h"
 #include "cli/usage_error.h"
 #include "core/io/mesh_file.h"
@@ -32,6 +33,7 @@ struct MakeOptions {
   std::optional<int> faces;
   std::optional<int> texture_size;
   std::optional<std::string> kind, image;
+  std::optional<int> size;
   bool open = false;
   CommonOptions common;
 };
@@ -142,8 +144,14 @@ int run_make_range(const MakeOptions& options) {
 
 int run_make(const MakeOptions& options) {
   apply(options.common);
+  if (options.size && options.what != "terrain") throw UsageError("--size is of terrain");
   if (options.what == "range") return run_make_range(options);
   if (options.kind || options.image) throw UsageError(fmt::format("{}: of range only", options.kind ? "--kind" : "--image"));
+  if (options.what == "terrain") {
+    if (options.faces) throw UsageError("--faces: terrain has --size heights on a side");
+    if (options.open) throw UsageError("--open is of duck");
+    return run_make_terrain({options.output, options.size, options.texture_size}, options.common);
+  }
   if (options.output == "-") throw UsageError("make: a model and its texture are several files: expected -o FILE.obj, .ply or .glb");
   require_writable_file(options.output);
   require_writable_file(options.common.json);
@@ -177,19 +185,22 @@ Verb add_make(CLI::App& root) {
          "what", options->what,
          "With a texture: swirl, the curved grid of a swirled texture; head, the embedded default. With vertex colours: monkey, a "
          "mandrill's head; duck, a wooden drake; statue, a robed figure in marble; knot, a displaced torus knot. A scan: range, one of "
-         "five range images of 256x256 samples in millimetres")
+         "five range images of 256x256 samples in millimetres. terrain: alpine heights and their orthophoto, two images")
       ->required()
-      ->check(CLI::IsMember({"swirl", "head", "monkey", "duck", "statue", "knot", "range"}))
-      ->type_name("swirl|head|monkey|duck|statue|knot|range");
+      ->check(CLI::IsMember({"swirl", "head", "monkey", "duck", "statue", "knot", "range", "terrain"}))
+      ->type_name("swirl|head|monkey|duck|statue|knot|range|terrain");
   app->add_option(
          "--faces", options->faces,
          "How many triangles: exactly so for monkey (default 101,002) and statue (default 200,000), even numbers; about so for swirl "
          "(7,688), head (7,685), duck (166,278; open 99,997) and knot (100,000)")
       ->type_name("N");
   app->add_flag("--open", options->open, "Of the duck: with a hole under its belly, as a scanner leaves it");
-  app->add_option("--texture-size", options->texture_size, "Of swirl and head: side of the texture in texels (default 1024)")
+  app->add_option("--texture-size", options->texture_size,
+                  "Of swirl, head and terrain: side of the texture in texels (default 1024; terrain 4 for each height)")
       ->type_name("N")
       ->check(CLI::Range(64, 8192));
+  app->add_option("--size", options->size, "Of terrain: heights on a side, 2^k+1: 33, 65 … 4097 (default 257), of the same 5.1 km")
+      ->type_name("N");
   app->add_option("--kind", options->kind, "Of range: which object (default telephone)")
       ->type_name("shuttle|hand|soldier|teapot|telephone")
       ->check(CLI::IsMember({"shuttle", "hand", "soldier", "teapot", "telephone"}));
@@ -200,13 +211,15 @@ Verb add_make(CLI::App& root) {
   app->add_option(
          "-o,--output", options->output,
          "Model to write, a texture STEM_texture.png beside it: .obj, .ply; or in one file: .glb. Of range also depths: .exr and .tif "
-         "in millimetres (float, no sample: NaN), .png in 1/256 mm (16 bits, no sample: 0)")
+         "in millimetres (float, no sample: NaN), .png in 1/256 mm (16 bits, no sample: 0). Of terrain the heights: .tif or .exr (float), "
+         "an orthophoto STEM_color.png beside it")
       ->required()
       ->type_name("FILE")
       ->check(not_empty());
   add_common_options(*app, options->common,
                      "  etalon make head -o head.obj\n  etalon make statue --faces 2351302 -o statue.ply\n"
-                     "  etalon make range --kind teapot --image ramp -o teapot.ply\n  etalon make range --kind hand -o hand.png");
+                     "  etalon make range --kind teapot --image ramp -o teapot.ply\n  etalon make range --kind hand -o hand.png\n  etalon "
+                     "make terrain -o alps.tif");
   return {app, [options] { return run_make(*options); }};
 }
 

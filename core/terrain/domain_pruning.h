@@ -19,8 +19,14 @@ class DomainPruning {
   [[nodiscard]] std::vector<std::uint32_t> order(const std::function<void(std::size_t, std::size_t)>& progress);
 
  private:
-  // (ratio, level finest first, index): a total order. The ratio is one correctly rounded quotient of two exact numbers.
-  [[nodiscard]] double ratio(std::uint32_t v) const { return static_cast<double>(sums_[v]) / static_cast<double>(counts_[v]); }
+  struct Node {
+    std::int64_t sum = 0;     ///< ΔD of what is left of the domain
+    double key = 0;           ///< by which the heap is ordered; never above ratio(), which may have risen since
+    std::uint32_t count = 0;  ///< ΔR; 0: gone
+    std::uint32_t slot = 0;   ///< in the heap; the highest bit marks gone points, and members while a domain is collected
+  };
+  // (key, level finest first, index): a total order. A ratio is one correctly rounded quotient of two exact numbers, each rounded to double.
+  [[nodiscard]] static double ratio(const Node& node) { return static_cast<double>(node.sum) / static_cast<double>(node.count); }
   [[nodiscard]] bool before(std::uint32_t a, std::uint32_t b) const;
   void place(std::size_t slot, std::uint32_t v);
   void sift_up(std::size_t slot);
@@ -31,12 +37,9 @@ class DomainPruning {
 
   int bits_;
   std::span<const std::int64_t> costs_;
-  std::vector<std::int64_t> sums_;     ///< ΔD of what is left of the domain
-  std::vector<std::uint32_t> counts_;  ///< ΔR; 0: gone
-  std::vector<double> keys_;           ///< by which the heap is ordered; never above ratio(), which may have risen since
-  std::vector<std::uint32_t> heap_, slots_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> heap_;
   std::vector<std::uint32_t> domain_;
-  std::vector<std::uint8_t> levels_;
 };
 
 }  // namespace etalon::terrain

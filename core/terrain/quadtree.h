@@ -79,20 +79,37 @@ void for_each_child(int bits, GridPoint p, const Split& split, const Body& body)
 /// Every ancestor but the corners, once, nearest level first: at most 8 a level (7 were counted at k = 7), so O(log n).
 template <class Body>
 void for_each_ancestor(int bits, GridPoint p, const Body& body) {
-  std::array<GridPoint, 16> now{}, next{};
+  std::array<GridPoint, 16> buffers[2];
+  GridPoint *now = buffers[0].data(), *next = buffers[1].data();
   std::size_t count = 1;
   now[0] = p;
-  while (count > 0) {
+  for (int level = split_of(bits, p).level; level > 0; --level) {
+    // As split_of() and for_each_parent(), of a level that is known.
+    const int t = bits - 1 - level / 2, h = 1 << t, steps = 1 << bits;
     std::size_t found = 0;
-    for (std::size_t n = 0; n < count; ++n)
-      for_each_parent(bits, now[n], split_of(bits, now[n]), [&](GridPoint parent) {
-        if (split_of(bits, parent).level < 0) return;
-        for (std::size_t m = 0; m < found; ++m)
-          if (next[m] == parent) return;
-        next[found++] = parent;
-      });
+    const auto add = [&](int i, int j) {
+      for (std::size_t m = 0; m < found; ++m)
+        if (next[m].i == i && next[m].j == j) return;
+      next[found++] = {i, j};
+    };
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto [i, j] = now[n];
+      if (level % 2 == 0) {
+        const int across = (((i >> (t + 1)) + (j >> (t + 1))) & 1) == 0 ? -h : h;
+        add(i - h, j - across);
+        add(i + h, j + across);
+      } else if (((i >> t) & 1) != 0) {
+        if (j > 0) add(i, j - h);
+        if (j < steps) add(i, j + h);
+      } else {
+        if (i > 0) add(i - h, j);
+        if (i < steps) add(i + h, j);
+      }
+    }
     for (std::size_t n = 0; n < found; ++n) body(next[n]);
+    GridPoint* const before = now;
     now = next;
+    next = before;
     count = found;
   }
 }

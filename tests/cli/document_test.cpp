@@ -38,6 +38,28 @@ TEST_CASE("make: models with vertex colours") {
   CHECK(checked_document({"info", "knot.ply"}, "info.json", folder)["mesh"]["faces"] == 1000);
 }
 
+TEST_CASE("make: terrain is two images of one extent, and refuses what is not its own") {
+  const ScratchFolder folder;
+  const json made = checked_document({"make", "terrain", "--size", "33", "--texture-size", "64", "-o", "alps.tif"}, "make.json", folder);
+  CHECK(folder.listing() == std::vector<std::string>{"alps.tif", "alps_color.png"});
+  CHECK(made["vertices"] == 33 * 33);
+  CHECK(made["faces"] == 2 * 32 * 32);
+  CHECK(made["spacing_m"] == 160);
+  const json dem = checked_document({"info", "alps.tif"}, "info.json", folder);
+  CHECK(dem["image"]["sha256"] == made["dem"]["sha256"]);
+  CHECK(checked_document({"info", "alps_color.png"}, "info.json", folder)["image"]["sha256"] == made["texture"]["sha256"]);
+  const auto refusal = [&](std::vector<std::string> arguments) {
+    const CommandResult result = run_etalon(arguments, {.folder = folder.path()});
+    CHECK(result.exit_code == 64);
+    return result.err;
+  };
+  CHECK(refusal({"make", "terrain", "--size", "100", "-o", "a.tif"}).find("expected 2^k+1 heights on a side") != std::string::npos);
+  CHECK(refusal({"make", "terrain", "-o", "a.png"}).find("expected -o FILE.tif or .exr, got a.png") != std::string::npos);
+  CHECK(refusal({"make", "terrain", "--faces", "100", "-o", "a.tif"}).find("terrain has --size heights") != std::string::npos);
+  CHECK(refusal({"make", "terrain", "--open", "-o", "a.tif"}).find("--open is of duck") != std::string::npos);
+  CHECK(refusal({"make", "knot", "--size", "33", "-o", "a.ply"}).find("--size is of terrain") != std::string::npos);
+}
+
 TEST_CASE("make, info, render: documents match their schemas") {
   const ScratchFolder folder;
   const json made = checked_document({"make", "swirl", "--faces", "200", "--texture-size", "64", "-o", "swirl.obj"}, "make.json", folder);

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/draw/scene.h"
 #include "core/mesh/adjacency.h"
+#include "core/procedural/alps.h"
 #include "core/terrain/quadtree.h"
 #include "raster/cpu_renderer.h"
 #include "tests/support/skip.h"
@@ -170,6 +171,11 @@ TEST_CASE("levels: what cannot be is refused") {
 
 TEST_CASE("levels: as many points as a uniform grid never miss by more (RMS), on noise") {
   check_uniform_is_not_better(test::rough_field(7));
+}
+
+TEST_CASE("levels: as many points as a uniform grid never miss by more (RMS), on the procedural alps") {
+  const procedural::Alps alps = procedural::make_alps({.texture_size = 64});
+  check_uniform_is_not_better(make_height_field(alps.dem, {.dem_spacing = alps.spacing}).field);
 }
 
 TEST_CASE("levels: as many points as a uniform grid never miss by more (RMS), on davosdorf") {
