@@ -19,6 +19,7 @@
 #include "cli/exit_code.h"
 #include "cli/info_command.h"
 #include "cli/interrupt.h"
+#include "cli/joint_command.h"
 #include "cli/make_command.h"
 #include "cli/metro_command.h"
 #include "cli/progressive_command.h"
@@ -41,7 +42,8 @@ using namespace etalon::cli;
 void require_known_verb(int argc, char** argv, const std::vector<Verb>& verbs) {
   if (argc < 2)
     throw UsageError(
-        "expected a verb: verify, render, info, make, simplify, progressive, adapt, bake, metro, study or selftest (see etalon --help)");
+        "expected a verb: verify, render, info, make, simplify, progressive, adapt, bake, joint, metro, study or selftest (see etalon "
+        "--help)");
   const std::string typed = argv[1];
   if (typed.empty() || typed.front() == '-') return;
   std::vector<std::string> names;
@@ -66,9 +68,9 @@ int run(int argc, char** argv) {
   root.footer(
       "Examples:\n  etalon verify\n  etalon verify spot.obj --report spot-report\n  etalon render head.glb -o head.png\n"
       "Exit codes: 0 done, 1 warning, 2 check failed, 3 sizes differ, 4 bad input or write error, 64 usage, 130 interrupted.");
-  const std::vector<Verb> verbs{add_verify(root),   add_render(root),      add_info(root),    add_make(root),
-                                add_simplify(root), add_progressive(root), add_adapt(root),   add_bake(root),
-                                add_metro(root),    add_study(root),       add_selftest(root)};
+  const std::vector<Verb> verbs{add_verify(root),   add_render(root),      add_info(root),  add_make(root),
+                                add_simplify(root), add_progressive(root), add_adapt(root), add_bake(root),
+                                add_joint(root),    add_metro(root),       add_study(root), add_selftest(root)};
   require_known_verb(argc, argv, verbs);
   try {
     root.parse(argc, argv);

@@ -1,0 +1,36 @@
+// A DEM and an image of the same extent on the command line: the terrain and its texture.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image/image.h"
+#include "core/terrain/height_field.h"
+
+namespace etalon::cli {
+
+struct TerrainOptions {
+  std::optional<int> grid;  ///< points on a side, 2^k + 1 of k 2..12; none: the most that the DEM holds
+  double spacing_m = 10;    ///< between samples of the DEM
+  int texture_size = 0;     ///< side of the texture; 0: the image's own texels, cut to the DEM's window
+};
+
+struct TerrainInput {
+  terrain::HeightField field;
+  Image image;                        ///< RGB (or one channel) unorm8, square, covering the window
+  std::vector<std::string> notes;     ///< what was done
+  std::vector<std::string> warnings;  ///< what the user should doubt
+};
+
+/// Reads both. The largest square in the middle of the DEM is taken, and the same part of the image. InputError "FILE: …": no such file, no DEM, no
+/// 8-bit image, an image of another shape than the DEM.
+[[nodiscard]] TerrainInput load_terrain(const std::string& dem_path, const std::string& image_path, const TerrainOptions& options);
+
+/// The square of `image` that begins at (column, row), its alpha dropped; grey stays grey.
+[[nodiscard]] Image cut_square(const Image& image, int column, int row, int size);
+
+/// A square image brought to size × size by bilinear interpolation between texel centres (row by row, in double, rounded half up).
+[[nodiscard]] Image resized_square(const Image& image, int size);
+
+}  // namespace etalon::cli
