@@ -11,6 +11,7 @@
 #include "cli/chen_subjects.h"
 #include "cli/exit_code.h"
 #include "cli/gl_options.h"
+#include "cli/horbelt_subjects.h"
 #include "cli/interrupt.h"
 #include "cli/study_subjects.h"
 #include "cli/usage_error.h"
@@ -19,6 +20,7 @@
 #include "validation/report/json_report.h"
 #include "validation/report/study_page.h"
 #include "validation/studies/chen_report.h"
+#include "validation/studies/horbelt_report.h"
 #include "validation/studies/kim_report.h"
 
 namespace etalon::cli {
@@ -108,6 +110,27 @@ Studied study_chen(const Options& options, const OpenedDevice& device, Console& 
   return {chen_report(result), result.device_name, 0};
 }
 
+void print_view(const std::string& subject, const HorbeltViewResult& view, Console& console) {
+  std::string line = fmt::format("{:<10} {:<9} {:4.1f} % visible, dB behind, mean (worst):", subject, view.view.name,
+                                 100.0 * static_cast<double>(view.visible_faces) / static_cast<double>(view.faces));
+  for (const HorbeltOutcome& o : view.outcomes)
+    line += fmt::format("  {} {:.3f} ({:.2f})", to_string(o.method), o.gaps.mean_db, o.gaps.max_db);
+  console.line(line);
+}
+
+Studied study_horbelt(const Options& options, const OpenedDevice& device, Console& console, CallFiles& files) {
+  raster::CpuRenderer exact;
+  HorbeltStudyOptions how;
+  if (options.quick) how.width = 160, how.height = 120, how.view_count = 2, how.levels.meshes = 12, how.levels.textures = 8;
+  how.device = device.renderer.get();
+  if (device.renderer) how.device_model = device.model;
+  how.progress = [&console](const std::string& label, int done, int total) { console.progress(label, done, total); };
+  how.on_view = [&console](const std::string& subject, const HorbeltViewResult& view) { print_view(subject, view, console); };
+  const HorbeltSubjectOptions which{.models = options.models, .data = options.data, .quick = options.quick};
+  const HorbeltStudyResult result = run_horbelt_study(load_horbelt_subjects(which, console, files), exact, how);
+  return {horbelt_report(result), result.device_name, result.unexplained()};
+}
+
 /// What to type to repeat it, paths by their last part.
 std::string command_of(const Options& options) {
   std::string command = "etalon study " + options.study;
@@ -122,7 +145,8 @@ void check_options(const Options& options) {
   const bool chen = options.study == "chen";
   if (!chen && (!options.faces.empty() || !options.texture.empty() || options.flip_v))
     throw UsageError(fmt::format("study {}: --faces, --texture and --flip-v belong to study chen", options.study));
-  if (chen && options.reduction != Options{}.reduction) throw UsageError("study chen: --reduction belongs to study kim (try --faces N)");
+  if (options.study != "kim" && options.reduction != Options{}.reduction)
+    throw UsageError(fmt::format("study {}: --reduction belongs to study kim", options.study));
 }
 
 int run(const Options& options) {
@@ -139,7 +163,9 @@ int run(const Options& options) {
   const OpenedDevice device = open_device(options.gl, options.common.threads);
   console.line(fmt::format("device   {}", device.renderer ? device.renderer->name() : "GL: not available (" + device.unavailable + ")"));
 
-  Studied studied = (options.study == "chen" ? study_chen : study_kim)(options, device, console, files);
+  Studied studied = (options.study == "chen"      ? study_chen
+                     : options.study == "horbelt" ? study_horbelt
+                                                  : study_kim)(options, device, console, files);
   StudyReport& report = studied.report;
   if (options.quick) {
     const std::string warning = "A quick run: small models, few samples. No figure of it counts.";
@@ -175,13 +201,15 @@ Verb add_study(CLI::App& root) {
       root.add_subcommand("study", "Repeat a paper's measurements: its tables and figures beside ours, each claim with a verdict");
   app->add_option("study", options->study,
                   "chen: Chen & Chuang, texture adaptation for progressive meshes; kim: Kim, Choi & Lee, mesh simplification with vertex "
-                  "colour")
+                  "colour; horbelt: Horbelt, Balmelli & Vetterli, joint mesh and texture compression")
       ->required()
-      ->type_name("chen|kim")
-      ->check(CLI::IsMember({"chen", "kim"}));
-  app->add_option("models", options->models,
-                  "chen: textured meshes, or swirl, head, parasaur, bunny, spot; kim: meshes with vertex colours, or monkey, duck, statue "
-                  "(default: those at the paper's sizes, real ones where they are found)")
+      ->type_name("chen|kim|horbelt")
+      ->check(CLI::IsMember({"chen", "kim", "horbelt"}));
+  app->add_option(
+         "models", options->models,
+         "chen: textured meshes, or swirl, head, parasaur, bunny, spot; kim: meshes with vertex colours, or monkey, duck, statue; horbelt: "
+         "DEM IMAGE, or davosdorf, alps "
+         "(default: those at the paper's sizes, real ones where they are found)")
       ->type_name("MODEL");
   app->add_option("--faces", options->faces, "chen: a level of the mesh files (repeat it; default a quarter, an eighth, a sixteenth)")
       ->type_name("N")

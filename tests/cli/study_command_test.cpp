@@ -100,6 +100,28 @@ TEST_CASE("study chen --quick: the built-in models take seconds and show every f
   CHECK(page.find("Several objects in one pass") != std::string::npos);
 }
 
+TEST_CASE("study horbelt --quick: the procedural alps, every figure, the same for 1 and 3 threads") {
+  const ScratchFolder folder;
+  std::string first;
+  for (const char* threads : {"1", "3"}) {
+    const CommandResult result =
+        run_etalon({"study", "horbelt", "--quick", "--report", "out", "--threads", threads, "--json", "-"}, {.folder = folder.path()});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    json document = json::parse(result.out);
+    const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/study.json"));
+    for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
+    CHECK(document["study"] == "horbelt");
+    CHECK(document["claims"].size() == 7);
+    document.erase("run");
+    if (first.empty()) first = document.dump();
+    CHECK(document.dump() == first);
+  }
+  for (const char* file :
+       {"figure4-alps-valley.svg", "figure5-alps-valley.svg", "alps-valley-pair-a.png", "alps-overview-mesh.png", "gaps.csv"})
+    CHECK(std::filesystem::exists(folder.path() / "out" / file));
+}
+
 TEST_CASE("study: what is refused, and nothing is left behind") {
   const ScratchFolder folder;
   folder.file("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -116,6 +138,10 @@ TEST_CASE("study: what is refused, and nothing is left behind") {
   check_refused({"study", "chen", "plain.obj", "--reduction", "0.5"}, 64, folder, "--reduction belongs to study kim");
   check_refused({"study", "kim", "plain.obj", "--faces", "5"}, 64, folder, "belong to study chen");
   check_refused({"study", "chen", "plain.obj", "--faces", "0"}, 64, folder, "--faces");
+  check_refused({"study", "horbelt", "plain.obj"}, 64, folder, "expected an IMAGE after the DEM");
+  check_refused({"study", "horbelt", "alps", "alps", "--quick"}, 64, folder, "two terrains of the name alps");
+  check_refused({"study", "horbelt", "davosdorf", "--data", "nowhere"}, 4, folder, "davosdorf: expected davosdorf/davosdorf.tif");
+  check_refused({"study", "horbelt", "--reduction", "0.5"}, 64, folder, "--reduction belongs to study kim");
   check_refused({"study", "chen", "--quick", "--report", "taken"}, 4, folder, "taken");
 }
 
