@@ -55,15 +55,18 @@ full_preset() {
   ETALON_FULL='' check_tests "preset $preset" "$log.tests" ctest --preset "$preset"
 }
 
-# A million mutants of .epm files under the sanitizers, in the build of that preset.
+# A million mutants of .epm files and of terrain streams under the sanitizers, in the build of that preset.
 full_mutants() {
-  local program="$root/build-asan-ubsan/tests/progressive/etalon_progressive_tests"
-  if [ ! -x "$program" ]; then
-    count 0 0 1
-    printf '[etalon] skipped: mutants: the preset asan-ubsan was not built\n'
-    return 0
-  fi
-  full_program env ETALON_FULL=1 UBSAN_OPTIONS=halt_on_error=1 "$program" --test-case='mutants are refused*'
+  local folder program
+  for folder in progressive terrain; do
+    program="$root/build-asan-ubsan/tests/$folder/etalon_${folder}_tests"
+    if [ ! -x "$program" ]; then
+      count 0 0 1
+      printf '[etalon] skipped: mutants of tests/%s: the preset asan-ubsan was not built\n' "$folder"
+      continue
+    fi
+    full_program env ETALON_FULL=1 UBSAN_OPTIONS=halt_on_error=1 "$program" --test-case='mutants are refused*'
+  done
 }
 
 # The judge keeps a log of finished blocks, so that it goes on within a step too.

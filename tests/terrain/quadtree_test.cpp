@@ -96,6 +96,23 @@ TEST_CASE("quadtree: ancestors are the closure of parents, each once, at most ei
   CHECK(most <= 8);
 }
 
+TEST_CASE("quadtree: ancestors a point grow by less than 14 with each k, so pruning visits O(n log n) of them") {
+  const auto mean = [](int bits) {
+    const int side = (1 << bits) + 1;
+    double count = 0;
+    for (int j = 0; j < side; ++j)
+      for (int i = 0; i < side; ++i) for_each_ancestor(bits, {i, j}, [&](GridPoint) { ++count; });
+    return count / side / side;
+  };
+  double before = mean(5);
+  for (const int bits : {6, 7, 8}) {
+    const double now = mean(bits);
+    CHECK(now - before > 10);
+    CHECK(now - before < 14);  // 7 of each of two levels, fewer at the border
+    before = now;
+  }
+}
+
 TEST_CASE("quadtree: with every point there, the leaves tile the square, counter-clockwise, twice a square's triangles") {
   const int bits = 4;
   std::size_t count = 0;
