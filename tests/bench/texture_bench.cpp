@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/io/image_file.h"
+#include "core/procedural/alps.h"
 #include "core/procedural/head.h"
 #include "core/wavelet/texture_stream.h"
 #include "tests/bench/simplify_way.h"
@@ -73,6 +74,9 @@ std::optional<Image> davosdorf() {
 
 std::vector<TextureScene> texture_scenes() {
   return {{.name = "texture-davosdorf", .title = "orthophoto of Davos Dorf, 512²", .make = davosdorf},
+          {.name = "texture-alps",
+           .title = "orthophoto of `make terrain`, 1024²",
+           .make = [] { return std::optional(procedural::make_alps().texture); }},
           {.name = "texture-head", .title = "texture of `make head`, 1024²", .make = [] {
              return std::optional(procedural::make_head().texture);
            }}};
