@@ -99,7 +99,7 @@ std::string rate_drawing(const HorbeltViewResult& view) {
     std::vector<Vec2d> line;
     for (std::size_t i = 0; i < meshes; ++i) line.push_back(place(view.mesh_bits[i] + view.texture_bits[j], shown_db(view, {i, j})));
     svg += path_element(line, kThin);
-    if (j % 5 == 0 || j + 1 == textures)
+    if ((j % 5 == 0 && j + 3 < textures) || j + 1 == textures)
       svg += svg_text(line.back().x + 4, line.back().y + 4, fmt::format("T{}", j), line.back().x > kLeft + kWidth - 30 ? "end" : "start",
                       "faint");
   }
