@@ -69,6 +69,10 @@ void add_range_options(CLI::App& verb, RangeOptions& options) {
   verb.add_option("--texture", options.texture, "Of a range image: the image of its colours, of the same size")
       ->type_name("IMAGE")
       ->check(not_empty());
+  add_range_file_options(verb, options);
+}
+
+void add_range_file_options(CLI::App& verb, RangeOptions& options) {
   verb.add_option("--spacing", options.spacing,
                   "Of a range image: model units from sample to sample (EXR: default its attribute rangeSpacing)")
       ->type_name("D")

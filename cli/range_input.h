@@ -21,6 +21,8 @@ struct RangeOptions {
 
 /// --texture, --spacing, --depth-scale, --no-data, --max-jump.
 void add_range_options(CLI::App& verb, RangeOptions& options);
+/// The same without --texture.
+void add_range_file_options(CLI::App& verb, RangeOptions& options);
 
 /// A range image (.png .tif .exr) triangulated, with the colours of `options.texture` where there is one; else a mesh, a PLY range grid with
 /// its jump as asked. Notes say what was made of what. What is read besides `path` is added to `files`. InputError; UsageError where an

@@ -13,6 +13,7 @@
 #include "cli/gl_options.h"
 #include "cli/horbelt_subjects.h"
 #include "cli/interrupt.h"
+#include "cli/soucy_subjects.h"
 #include "cli/study_subjects.h"
 #include "cli/usage_error.h"
 #include "raster/cpu_renderer.h"
@@ -22,6 +23,7 @@
 #include "validation/studies/chen_report.h"
 #include "validation/studies/horbelt_report.h"
 #include "validation/studies/kim_report.h"
+#include "validation/studies/soucy_report.h"
 
 namespace etalon::cli {
 namespace {
@@ -33,6 +35,8 @@ struct Options {
   std::vector<std::string> models;
   double reduction = 0.9;
   std::vector<std::size_t> faces;
+  std::vector<std::string> tolerances;
+  RangeOptions range;  ///< but its texture
   std::string texture, data;
   bool flip_v = false, quick = false;
   std::string report;  ///< empty: etalon-study-NAME
@@ -131,11 +135,50 @@ Studied study_horbelt(const Options& options, const OpenedDevice& device, Consol
   return {horbelt_report(result), result.device_name, result.unexplained()};
 }
 
+void print_subject(const SoucyScanResult& scan, Console& console) {
+  for (const SoucyMapping& m : scan.mappings)
+    console.line(fmt::format("{:<10} {:>6}  {:>6} faces, {:<10} {:>4}²: MSE {:>9.2f}", scan.name,
+                             length_text(scan.levels[m.level].tolerance, scan.unit), grouped(scan.levels[m.level].faces),
+                             to_string(m.pattern), m.map_size, m.error.mse()));
+}
+
+void print_subject(const SoucyModelResult& model, Console& console) {
+  const auto db = [](const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value) : std::string("same"); };
+  for (const SoucyModelMap& m : model.maps)
+    console.line(fmt::format("{:<22} {:>6} faces, {:>4}²: {} dB (both show it: {}), vertex colours {} ({})", model.name,
+                             grouped(model.baked_faces), m.map_size, db(m.sums.whole_db()), db(m.sums.masked_db()),
+                             db(model.plain_sums.whole_db()), db(model.plain_sums.masked_db())));
+}
+
+Studied study_soucy(const Options& options, const OpenedDevice& device, Console& console, CallFiles& files) {
+  SoucySubjectOptions which{.models = options.models, .data = options.data, .quick = options.quick};
+  if (!options.faces.empty()) which.faces = options.faces.front();
+  which.tolerances = options.tolerances;
+  which.range = options.range;
+  which.range.texture = options.texture;
+  const SoucySubjects subjects = load_soucy_subjects(which, console, files);
+  raster::CpuRenderer exact;
+  SoucyStudyOptions how;
+  if (options.quick) how.views_px = 128, how.view_count = 4, how.picture_px = 192, how.model_maps = {256};
+  how.device = device.renderer.get();
+  how.device_model = device.model;
+  how.progress = [&console](const std::string& label, int done, int total) { console.progress(label, done, total); };
+  how.on_scan = [&console](const SoucyScanResult& scan) { print_subject(scan, console); };
+  how.on_model = [&console](const SoucyModelResult& model) { print_subject(model, console); };
+  const SoucyStudyResult result = run_soucy_study(subjects.scans, subjects.models, exact, how);
+  return {soucy_report(result, exact), result.device_name, result.unexplained()};
+}
+
 /// What to type to repeat it, paths by their last part.
 std::string command_of(const Options& options) {
   std::string command = "etalon study " + options.study;
   for (const std::string& model : options.models) command += " " + std::filesystem::path(model).filename().string();
   for (const std::size_t faces : options.faces) command += fmt::format(" --faces {}", faces);
+  for (const std::string& tolerance : options.tolerances) command += " --tolerance " + tolerance;
+  if (options.range.spacing) command += fmt::format(" --spacing {}", *options.range.spacing);
+  if (options.range.depth_scale) command += fmt::format(" --depth-scale {}", *options.range.depth_scale);
+  if (options.range.no_data) command += fmt::format(" --no-data {}", *options.range.no_data);
+  if (options.range.max_jump) command += fmt::format(" --max-jump {}", *options.range.max_jump);
   if (!options.texture.empty()) command += " --texture " + std::filesystem::path(options.texture).filename().string();
   if (options.flip_v) command += " --flip-v";
   return command + (options.quick ? " --quick" : "");
@@ -143,8 +186,14 @@ std::string command_of(const Options& options) {
 
 void check_options(const Options& options) {
   const bool chen = options.study == "chen";
-  if (!chen && (!options.faces.empty() || !options.texture.empty() || options.flip_v))
-    throw UsageError(fmt::format("study {}: --faces, --texture and --flip-v belong to study chen", options.study));
+  if (!chen && options.study != "soucy" && (!options.faces.empty() || !options.texture.empty()))
+    throw UsageError(fmt::format("study {}: --faces and --texture belong to study chen and study soucy", options.study));
+  if (options.study == "soucy" && options.faces.size() > 1) throw UsageError("study soucy: expected one --faces, got several");
+  if (!chen && options.flip_v) throw UsageError(fmt::format("study {}: --flip-v belongs to study chen", options.study));
+  const RangeOptions& range = options.range;
+  if (options.study != "soucy" && (range.spacing || range.depth_scale || range.no_data || range.max_jump || !options.tolerances.empty()))
+    throw UsageError(
+        fmt::format("study {}: --tolerance, --spacing, --depth-scale, --no-data and --max-jump belong to study soucy", options.study));
   if (options.study != "kim" && options.reduction != Options{}.reduction)
     throw UsageError(fmt::format("study {}: --reduction belongs to study kim", options.study));
 }
@@ -165,7 +214,8 @@ int run(const Options& options) {
 
   Studied studied = (options.study == "chen"      ? study_chen
                      : options.study == "horbelt" ? study_horbelt
-                                                  : study_kim)(options, device, console, files);
+                     : options.study == "kim"     ? study_kim
+                                                  : study_soucy)(options, device, console, files);
   StudyReport& report = studied.report;
   if (options.quick) {
     const std::string warning = "A quick run: small models, few samples. No figure of it counts.";
@@ -199,26 +249,38 @@ Verb add_study(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app =
       root.add_subcommand("study", "Repeat a paper's measurements: its tables and figures beside ours, each claim with a verdict");
-  app->add_option("study", options->study,
-                  "chen: Chen & Chuang, texture adaptation for progressive meshes; kim: Kim, Choi & Lee, mesh simplification with vertex "
-                  "colour; horbelt: Horbelt, Balmelli & Vetterli, joint mesh and texture compression")
+  app->add_option(
+         "study", options->study,
+         "chen: Chen & Chuang, texture adaptation for progressive meshes; kim: Kim, Choi & Lee, mesh simplification with vertex "
+         "colour; soucy: Soucy, Godin & Rioux, coloured scans baked; horbelt: Horbelt, Balmelli & Vetterli, joint mesh and texture "
+         "compression")
       ->required()
-      ->type_name("chen|kim|horbelt")
-      ->check(CLI::IsMember({"chen", "kim", "horbelt"}));
+      ->type_name("chen|kim|soucy|horbelt")
+      ->check(CLI::IsMember({"chen", "kim", "soucy", "horbelt"}));
   app->add_option(
          "models", options->models,
-         "chen: textured meshes, or swirl, head, parasaur, bunny, spot; kim: meshes with vertex colours, or monkey, duck, statue; horbelt: "
-         "DEM IMAGE, or davosdorf, alps "
+         "chen: textured meshes, or swirl, head, parasaur, bunny, spot; kim: meshes with vertex colours, or monkey, duck, statue; soucy: "
+         "the same, range images (.png .tif .exr), or shuttle, hand, soldier, teapot, telephone, duck; horbelt: DEM IMAGE, or davosdorf, "
+         "alps "
          "(default: those at the paper's sizes, real ones where they are found)")
       ->type_name("MODEL");
-  app->add_option("--faces", options->faces, "chen: a level of the mesh files (repeat it; default a quarter, an eighth, a sixteenth)")
+  app->add_option("--faces", options->faces,
+                  "chen: a level of the mesh files (repeat it; default a quarter, an eighth, a sixteenth); soucy: triangles of the models "
+                  "(default 1000)")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 32));
-  app->add_option("--texture", options->texture, "chen: image that replaces the mesh files' own textures")
+  app->add_option("--texture", options->texture,
+                  "chen: image that replaces the mesh files' own textures; soucy: the colours of a range image")
       ->type_name("IMG")
       ->check(not_empty());
   app->add_flag("--flip-v", options->flip_v,
                 "chen: the mesh files' texture coordinates run from top to bottom against their format's convention");
+  add_range_file_options(*app, options->range);
+  app->add_option("--tolerance", options->tolerances,
+                  "soucy: how far a sample of a range image file may be from the surface: model units, or 0.5% of the diagonal (repeat it, "
+                  "ascending; default 0.5%, 1%, 2%)")
+      ->type_name("D")
+      ->check(not_empty());
   app->add_option("--reduction", options->reduction, "kim: share of the vertices of a mesh file that goes (default 0.9)")
       ->type_name("R")
       ->check(number_between(0.01, 0.999));
@@ -230,7 +292,8 @@ Verb add_study(CLI::App& root) {
   add_gl_options(*app, options->gl);
   add_common_options(*app, options->common,
                      "  etalon study chen --quick\n  etalon study chen fox.obj --faces 2000 --faces 500 --report fox-study\n  etalon study "
-                     "kim scan.ply --reduction 0.95 --report scan-study");
+                     "kim scan.ply --reduction 0.95 --report scan-study\n  etalon study soucy scan.ply --faces 2000\n  etalon study soucy "
+                     "depth.tif --spacing 0.7 --texture colour.png");
   return {app, [options] { return run(*options); }};
 }
 

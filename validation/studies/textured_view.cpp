@@ -10,15 +10,21 @@
 
 namespace etalon::validation {
 
-DrawnView draw_textured(Renderer& renderer, const TexturedMesh& what, const Camera& camera, int width, int height) {
-  Frame frame{.width = width, .height = height, .guard = 2048, .state = {}, .targets = {}};
-  frame.targets = {{TargetContent::color, kRgba8, {0, 0, 0, 1}}, {TargetContent::triangle_id, kR32ui, {}}};
-  frame.state = renderer.supported_state(frame.state);
+StudyScene textured_scene(const TexturedMesh& what, const Camera& camera, int width, int height, const RasterState& state) {
+  StudyScene scene;
+  scene.frame = {.width = width, .height = height, .guard = 2048, .state = state, .targets = {}};
+  scene.frame.targets = {{TargetContent::color, kRgba8, {0, 0, 0, 1}}, {TargetContent::triangle_id, kR32ui, {}}};
   const Sampler sampler{what.filter, Wrap::clamp, Wrap::clamp};
   const Material material{.texture = what.texture, .sampler = sampler, .indexing_map = what.map, .map_sampler = sampler};
   std::uint32_t materials = 1;
   for (const std::uint32_t m : what.mesh->face_materials) materials = std::max(materials, m + 1);
-  std::vector<Image> images = renderer.render(make_scene(*what.mesh, std::vector<Material>(materials, material), camera, frame), frame);
+  scene.list = make_scene(*what.mesh, std::vector<Material>(materials, material), camera, scene.frame);
+  return scene;
+}
+
+DrawnView draw_textured(Renderer& renderer, const TexturedMesh& what, const Camera& camera, int width, int height) {
+  const StudyScene scene = textured_scene(what, camera, width, height, renderer.supported_state({}));
+  std::vector<Image> images = renderer.render(scene.list, scene.frame);
   return {std::move(images[0]), std::move(images[1])};
 }
 

@@ -11,15 +11,18 @@
 
 namespace etalon::validation {
 
-/// A mesh with its one texture, looked up linearly (clamped) unless another filter is named: at its own coordinates, or at those that an indexing map holds.
+/// A mesh with its one texture, looked up by one filter (clamped): at its own coordinates, or at those that an indexing map holds.
 struct TexturedMesh {
   const Mesh* mesh = nullptr;
   std::shared_ptr<const Image> texture;
   std::shared_ptr<const Image> map;  ///< none: the texture itself
-  Filter filter = Filter::linear;
+  Filter filter = Filter::linear;    ///< of texture and map
 };
 
-/// RGBA unorm8 on black, and ids. InputError as make_scene().
+/// RGBA unorm8 on black, and ids, in a state. InputError as make_scene().
+[[nodiscard]] StudyScene textured_scene(const TexturedMesh& what, const Camera& camera, int width, int height, const RasterState& state);
+
+/// The same drawn, in the renderer's own state.
 [[nodiscard]] DrawnView draw_textured(Renderer& renderer, const TexturedMesh& what, const Camera& camera, int width, int height);
 
 /// Sums of squared RGB differences, exact, of any number of picture pairs.

@@ -11,9 +11,9 @@
 
 namespace etalon::validation {
 
-VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view, const RasterState& state) {
+StudyScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view, const RasterState& state) {
   if (mesh.colors.empty()) throw InputError("expected a mesh with vertex colours, got one without");
-  VertexColorScene scene;
+  StudyScene scene;
   scene.frame.width = view.width;
   scene.frame.height = view.height;
   scene.frame.state = state;
@@ -25,7 +25,7 @@ VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& vie
 }
 
 DrawnView draw_view(Renderer& renderer, const Mesh& mesh, const VertexColorView& view) {
-  const VertexColorScene scene = vertex_color_scene(mesh, view);
+  const StudyScene scene = vertex_color_scene(mesh, view);
   std::vector<Image> images = renderer.render(scene.list, scene.frame);
   return {std::move(images[0]), std::move(images[1])};
 }
@@ -75,7 +75,7 @@ ShownSquare shown_square(const DrawnView& view) {
 }
 
 DeviceView draw_on_device(Renderer& exact, Renderer& device, const DeviceModel& model, const Mesh& mesh, const VertexColorView& view) {
-  const VertexColorScene scene = vertex_color_scene(mesh, view, device.supported_state({}));
+  const StudyScene scene = vertex_color_scene(mesh, view, device.supported_state({}));
   const std::vector<Image> golden = exact.render(scene.list, scene.frame);
   std::vector<Image> candidate = device.render(scene.list, scene.frame);
   DeviceView result;

@@ -6,6 +6,7 @@
 #include "core/draw/camera.h"
 #include "core/draw/renderer.h"
 #include "validation/bounds.h"
+#include "validation/studies/study_scene.h"
 #include "validation/texel_diff.h"
 
 namespace etalon::validation {
@@ -18,11 +19,7 @@ struct VertexColorView {
 
 /// The draw list and the frame (colour as RGBA unorm8 on black, the default clear colour of OpenGL; triangle ids) of one view.
 /// InputError where the mesh has no vertex colours or breaks the contract's ranges.
-struct VertexColorScene {
-  DrawList list;
-  Frame frame;
-};
-[[nodiscard]] VertexColorScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view, const RasterState& state = {});
+[[nodiscard]] StudyScene vertex_color_scene(const Mesh& mesh, const VertexColorView& view, const RasterState& state = {});
 
 struct DrawnView {
   Image color;
