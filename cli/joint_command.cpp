@@ -13,6 +13,7 @@
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
+#include "cli/joint_open.h"
 #include "cli/model_input.h"
 #include "cli/terrain_input.h"
 #include "cli/usage_error.h"
@@ -139,13 +140,6 @@ std::string pairs_csv(const joint::AllPairs& all, const joint::Problem& problem)
   return csv;
 }
 
-Image without_alpha(const Image& picture) {
-  Image rgb(picture.width(), picture.height(), kRgb8);
-  for (int y = 0; y < rgb.height(); ++y)
-    for (int x = 0; x < rgb.width(); ++x) std::copy_n(picture.texel(x, y), 3, rgb.texel(x, y));
-  return rgb;
-}
-
 Json document_of(const Options& options, const TerrainInput& input, const std::vector<validation::VerifyInput>& inputs,
                  validation::TerrainProblem& terrain, const Outcome& outcome, std::size_t file_bytes) {
   const joint::JointLevels& levels = terrain.levels();
@@ -191,8 +185,8 @@ void write_results(const std::filesystem::path& folder, validation::TerrainProbl
   const joint::Pair pair = outcome.chosen->pair;
   io::write_mesh(folder / "model.obj", terrain.mesh(pair.mesh),
                  {{.name = "model", .texture_path = {}, .texture = terrain.textures()[pair.texture]}});
-  io::write_image(folder / "picture.png", without_alpha(terrain.errors().picture(pair.mesh, pair.texture)));
-  io::write_image(folder / "full.png", without_alpha(terrain.errors().reference()));
+  io::write_image(folder / "picture.png", validation::without_alpha(terrain.errors().picture(pair.mesh, pair.texture)));
+  io::write_image(folder / "full.png", validation::without_alpha(terrain.errors().reference()));
   io::write_file(folder / "path.csv", path_csv(outcome.path, terrain.errors().samples()));
   if (outcome.all) io::write_file(folder / "pairs.csv", pairs_csv(*outcome.all, terrain.problem()));
   io::write_file(folder / "joint.ejt", std::span<const std::byte>(stream));
@@ -224,6 +218,13 @@ int run(const Options& options) {
   require_writable_folder(options.output);
   require_writable_file(options.common.json);
   Console console(console_options(options.common));
+  if (options.image.empty()) {
+    if (!is_joint_stream(options.dem))
+      throw UsageError(fmt::format("joint: {}: expected an IMAGE after the DEM, or a file .ejt", options.dem));
+    if (!options.common.json.empty()) throw UsageError("joint: --json belongs to DEM IMAGE");
+    open_joint_stream(options.dem, options.output, console);
+    return kExitDone;
+  }
   CallFiles files;
   files.add_input(options.dem, "DEM");
   files.add_input(options.image, "IMAGE");
@@ -259,14 +260,12 @@ int run(const Options& options) {
 Verb add_joint(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("joint", "Spend one bit budget on a terrain's mesh and its texture, by what a view shows of them");
-  app->add_option("dem", options->dem, "Heights: an image of one channel, float or 16 bit")
+  app->add_option("dem", options->dem,
+                  "Heights: an image of one channel, float or 16 bit; or a file .ejt, or the beginning of one, to be opened")
       ->required()
       ->type_name("DEM")
       ->check(not_empty());
-  app->add_option("image", options->image, "Its texture, of the same extent, 8 bits a channel")
-      ->required()
-      ->type_name("IMAGE")
-      ->check(not_empty());
+  app->add_option("image", options->image, "Its texture, of the same extent, 8 bits a channel")->type_name("IMAGE")->check(not_empty());
   app->add_option("--view", options->view, "View file (etalon/view/1), or fit, front, N/24 (default: all of it, from the south)")
       ->type_name("FILE|NAME")
       ->check(not_empty());
@@ -310,7 +309,8 @@ Verb add_joint(CLI::App& root) {
   add_common_options(*app, options->common,
                      "  etalon joint dem.tif photo.png -o both\n"
                      "  etalon joint dem.tif photo.png --view pass.json --search exhaustive --json - -o both\n"
-                     "  etalon joint dem.tif photo.png --budget 20000 -o small");
+                     "  etalon joint dem.tif photo.png --budget 20000 -o small\n"
+                     "  etalon joint small/joint.ejt -o opened");
   return {app, [options] { return run(*options); }};
 }
 

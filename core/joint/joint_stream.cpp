@@ -86,6 +86,11 @@ Segments read_segments(std::span<const std::byte> bytes) {
 
 }  // namespace
 
+bool has_joint_signature(std::span<const std::byte> bytes) {
+  return bytes.size() >= kSignature.size() &&
+         std::ranges::equal(bytes.first(kSignature.size()), kSignature, {}, {}, [](char c) { return static_cast<std::byte>(c); });
+}
+
 std::vector<std::byte> encode_joint(const JointLevels& levels, const Path& path) {
   const auto mesh_stream = std::as_bytes(std::span(levels.mesh_stream.bytes));
   const std::vector<std::size_t>&mesh_ends = levels.mesh_stream.level_ends_bytes, &texture_ends = levels.texture_ends_bytes;

@@ -18,6 +18,9 @@ inline constexpr std::size_t kSegmentHeadBytes = 9;   ///< kind, length, checksu
 /// names a level that is not there.
 [[nodiscard]] std::vector<std::byte> encode_joint(const JointLevels& levels, const Path& path);
 
+/// True for bytes that begin with the signature.
+[[nodiscard]] bool has_joint_signature(std::span<const std::byte> bytes);
+
 struct DecodedJoint {
   terrain::DecodedTerrain terrain;
   Image texture;

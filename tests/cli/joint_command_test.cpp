@@ -109,6 +109,35 @@ TEST_CASE("joint: a budget chooses the model; one below the smallest pair is ref
   CHECK(large.out.find("of the budget's 10,000,000") != std::string::npos);
 }
 
+TEST_CASE("joint: a stream, and a beginning of it, is opened as the model that was chosen") {
+  ScratchFolder folder;
+  small_terrain(folder);
+  const json whole = document_of(joint(folder, {"dem.tif", "photo.png", "-o", "whole", "--json", "-"}));
+  const std::string stream = read_text(folder.path() / "whole/joint.ejt");
+  const CommandResult opened = run_etalon({"joint", "whole/joint.ejt", "-o", "opened"}, {.folder = folder.path()});
+  CHECK(opened.exit_code == 0);
+  CHECK(opened.out.find("prefix") == std::string::npos);
+  for (const char* file : {"model.obj", "model_texture.png", "picture.png"})
+    CHECK(read_text(folder.path() / "opened" / file) == read_text(folder.path() / "whole" / file));
+
+  const std::size_t middle = whole["path"].size() / 2, bytes = whole["path"][middle]["bits"].get<std::size_t>() / 8;
+  (void)document_of(joint(folder, {"dem.tif", "photo.png", "-o", "part", "--budget", std::to_string(bytes), "--json", "-"}));
+  (void)folder.file("begin.ejt", stream.substr(0, bytes + 3));
+  const CommandResult part = run_etalon({"joint", "begin.ejt", "-o", "opened2"}, {.folder = folder.path()});
+  CHECK(part.exit_code == 0);
+  CHECK(part.out.find("note: a prefix") != std::string::npos);
+  for (const char* file : {"model.obj", "model_texture.png", "picture.png"})
+    CHECK(read_text(folder.path() / "opened2" / file) == read_text(folder.path() / "part" / file));
+
+  (void)folder.file("short.ejt", stream.substr(0, 40));
+  const CommandResult refused = run_etalon({"joint", "short.ejt", "-o", "none"}, {.folder = folder.path()});
+  CHECK(refused.exit_code == 4);
+  CHECK(refused.err.find("short.ejt: joint stream: byte") != std::string::npos);
+  CHECK(run_etalon({"joint", "dem.tif", "-o", "none"}, {.folder = folder.path()}).exit_code == 64);
+  CHECK(run_etalon({"joint", "whole/joint.ejt", "-o", "none", "--json", "-"}, {.folder = folder.path()}).exit_code == 64);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "none"));
+}
+
 TEST_CASE("joint: rules, directions, kernels, grids, view files") {
   ScratchFolder folder;
   small_terrain(folder);

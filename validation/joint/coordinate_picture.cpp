@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -198,6 +199,14 @@ Image opaque_rgba(const Image& image) {
       to[0] = from[0], to[1] = from[is_grey ? 0 : 1], to[2] = from[is_grey ? 0 : 2], to[3] = 255;
     }
   return result;
+}
+
+Image without_alpha(const Image& picture) {
+  ETALON_CHECK(picture.format() == kRgba8, to_string(picture.format()));
+  Image rgb(picture.width(), picture.height(), kRgb8);
+  for (int y = 0; y < rgb.height(); ++y)
+    for (int x = 0; x < rgb.width(); ++x) std::copy_n(picture.texel(x, y), 3, rgb.texel(x, y));
+  return rgb;
 }
 
 }  // namespace etalon::validation

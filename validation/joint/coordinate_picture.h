@@ -75,4 +75,7 @@ class CoordinatePicture {
 /// RGBA unorm8, opaque. InputError for other formats than RGB and RGBA unorm8 (1 channel: grey).
 [[nodiscard]] Image opaque_rgba(const Image& image);
 
+/// RGB of RGBA unorm8.
+[[nodiscard]] Image without_alpha(const Image& picture);
+
 }  // namespace etalon::validation

@@ -39,13 +39,6 @@ joint::Path path_of(const joint::Problem& problem, HorbeltMethod method) {
   return {};
 }
 
-Image without_alpha(const Image& picture) {
-  Image rgb(picture.width(), picture.height(), kRgb8);
-  for (int y = 0; y < rgb.height(); ++y)
-    for (int x = 0; x < rgb.width(); ++x) std::copy_n(picture.texel(x, y), 3, rgb.texel(x, y));
-  return rgb;
-}
-
 // The stair in the middle of the costs, and beside it pairs within 3 % of its bits: that of the finest texture and that of the finest mesh.
 std::vector<HorbeltTrade> trades_of(const joint::Problem& problem, const HorbeltViewResult& view, TerrainProblem& terrain) {
   const std::vector<std::uint64_t> budgets =

@@ -127,4 +127,7 @@ TEST_CASE("textures of one texel's width, and of formats without bytes, are refu
   const Image opaque = opaque_rgba(grey);
   CHECK(opaque.channels<std::uint8_t>(1, 1)[2] == 77);
   CHECK(opaque.channels<std::uint8_t>(0, 0)[3] == 255);
+  CHECK(without_alpha(opaque).format() == kRgb8);
+  CHECK(without_alpha(opaque).channels<std::uint8_t>(1, 1)[1] == 77);
+  CHECK_THROWS_AS((void)without_alpha(grey), InternalError);
 }
