@@ -69,6 +69,7 @@ VerifyOptions verify_options(const Options& options, Console& console, CallFiles
   result.width = size.width;
   result.height = size.height;
   result.adapt_faces = static_cast<std::size_t>(options.faces);
+  result.bake_faces = result.adapt_faces;
   result.adapt_size = options.map_size;
   result.jobs.clear();
   for (const std::string& job : verify_jobs()) {  // each once, in the order they are done
@@ -190,7 +191,8 @@ Verb add_verify(CLI::App& root) {
       ->type_name("LIST")
       ->delimiter(',')
       ->check(CLI::IsMember(verify_jobs()));
-  app->add_option("--faces", options->faces, "Job adapt: its coarsest level has at most so many triangles (default: a tenth)")
+  app->add_option("--faces", options->faces,
+                  "Jobs adapt and bake: their coarsest level has at most so many triangles (default: a tenth; bake: 300 at most)")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 32));
   app->add_option("--map-size", options->map_size, "Job adapt: side of its map in texels (default 256)")
@@ -205,7 +207,8 @@ Verb add_verify(CLI::App& root) {
   app->add_option("--report", options->report, "Folder of the report (default etalon-report)")->type_name("DIR")->check(not_empty());
   add_model_options(*app, options->model);
   add_gl_options(*app, options->gl);
-  add_common_options(*app, options->common, "  etalon verify\n  etalon verify spot.obj --size 2048 --report spot-report");
+  add_common_options(*app, options->common,
+                     "  etalon verify\n  etalon verify spot.obj --size 2048 --report spot-report\n  etalon verify scan.ply --jobs bake");
   return {app, [options] { return run(*options); }};
 }
 

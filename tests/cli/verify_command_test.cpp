@@ -36,7 +36,7 @@ TEST_CASE("verify: table, report line, exit code") {
   const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
   CHECK(document["verdict"] == "agreed");
   CHECK(document["total"]["unexplained"] == 0);
-  CHECK(document["total"]["texels"] == 6 * 96 * 64);
+  CHECK(document["total"]["texels"] == 8 * 96 * 64);
 }
 
 TEST_CASE("verify without OpenGL says why, draws what it can, and exits with 1") {
@@ -86,7 +86,7 @@ TEST_CASE("--shader exact: every texel identical, no bound lent; the report name
   CHECK(result.exit_code == 0);
   const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
   CHECK(document["verdict"] == "agreed");
-  CHECK(document["total"]["identical"] == 6 * 96 * 64);
+  CHECK(document["total"]["identical"] == 8 * 96 * 64);
   CHECK(document["bounds"]["origin"] == "exact: docs/contract.md, version 1");
   CHECK(document["renderers"]["gl"].get<std::string>().find(", exact shader") != std::string::npos);
 
@@ -117,6 +117,49 @@ TEST_CASE("a model without texture coordinates: the indexed job is skipped, not 
   CHECK(document["jobs"][0]["cases"][0]["sampling"] == "vertex colours");
   const CommandResult only = run_etalon({"verify", "plain.obj", "--size", "32", "--jobs", "indexed"}, {.folder = folder.path()});
   CHECK(only.exit_code == 1);
+}
+
+TEST_CASE("verify: the job bake, on the command line, in the table and in the document; skipped with a hint where there are no colours") {
+  const ScratchFolder folder;
+  REQUIRE(run_etalon({"make", "swirl", "--faces", "512", "--texture-size", "64", "-o", "swirl.obj"}, {.folder = folder.path()}).exit_code ==
+          0);
+  const CommandResult result = run_etalon({"verify", "swirl.obj", "--size", "128", "--jobs", "bake"}, {.folder = folder.path()});
+  CAPTURE(result.out);
+  CHECK(result.err.empty());
+  const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
+  REQUIRE(document["jobs"].size() == 1);
+  const json& job = document["jobs"][0];
+  CHECK(job["job"] == "bake");
+  CHECK(!job.contains("skipped"));
+  REQUIRE(job["cases"].size() == 2);
+  std::vector<std::string> hashes;
+  for (const json& item : job["cases"]) {
+    CHECK(item["covered"] > 1000);
+    CHECK(item["unexplained"] == 0);
+    hashes.push_back(item["targets"][0]["cpu_sha256"]);
+    const std::string name = "swirl, " + item["view"].get<std::string>() + ", " + item["sampling"].get<std::string>();
+    CHECK(result.out.find("\nbake     " + name + ": 128x128, cpu ") != std::string::npos);
+    CHECK(read_text(folder.path() / "etalon-report/classes.csv").find("\nbake,") != std::string::npos);
+  }
+  CHECK(job["cases"][0]["sampling"].get<std::string>().find(" of 512 faces") != std::string::npos);
+  if (has_gl(result)) {
+    CHECK(result.exit_code == 0);
+    CHECK(job["texels"] == 2 * 128 * 128);
+  } else {
+    report_skip("verify: the job bake", "no OpenGL: comparison not tested");
+    CHECK(result.exit_code == 1);
+  }
+
+  REQUIRE(run_etalon({"verify", "swirl.obj", "--size", "16", "--jobs", "bake", "--faces", "80"}, {.folder = folder.path()}).err.empty());
+  const json asked = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
+  CHECK(asked["jobs"][0]["cases"][0]["triangles"] <= 80);
+  CHECK(asked["jobs"][0]["cases"][0]["triangles"] > 60);
+
+  folder.file("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const CommandResult bare = run_etalon({"verify", "bare.obj", "--size", "16", "--jobs", "bake"}, {.folder = folder.path()});
+  CHECK(bare.exit_code == 1);
+  CHECK(bare.err.empty());
+  CHECK(bare.out.find("skipped: neither vertex colours nor a texture with coordinates to take them from (try ") != std::string::npos);
 }
 
 TEST_CASE("views: built-in names and a file") {

@@ -168,6 +168,9 @@ const char* lead_of(const std::string& job) {
     return "An indexing map is re-sampled, collapse by collapse, for a coarser mesh, and back. Each texel of each pass is compared; the "
            "pictures "
            "are the maps that come out in the end, red and green being the coordinates they hold.";
+  if (job == "bake")
+    return "The model as few triangles whose texture map holds its colours, one half-square of texels each: a lookup that misses its own "
+           "half-square shows another part of the surface.";
   return "The textured model, in perspective, with depth test.";
 }
 

@@ -7,13 +7,14 @@
 
 #include "core/base/error.h"
 #include "validation/verify/verify_adapt.h"
+#include "validation/verify/verify_bake.h"
 #include "validation/verify/verify_case.h"
 #include "validation/verify/verify_maps.h"
 
 namespace etalon::validation {
 namespace {
 
-constexpr const char* kAdapt = "adapt";
+constexpr const char *kAdapt = "adapt", *kBake = "bake";
 
 /// A scene that is still to be drawn.
 struct Plan {
@@ -79,7 +80,7 @@ JobPlan plan_job(const std::string& job, const std::vector<VerifyModel>& models,
   JobPlan result{job, {}, ""};
   if (std::find(verify_jobs().begin(), verify_jobs().end(), job) == verify_jobs().end())
     throw InputError(fmt::format("verify: expected a job of {}, got '{}'", fmt::join(verify_jobs(), ", "), job));
-  if (job == kAdapt) return result;
+  if (job == kAdapt || job == kBake) return result;
   for (const VerifyModel& model : models) {
     const std::vector<Plan> plans = job == "render" ? plan_render(model, options) : plan_indexed(model, options);
     result.plans.insert(result.plans.end(), plans.begin(), plans.end());
@@ -125,20 +126,30 @@ CaseResult run_case(const std::string& job, const Plan& plan, const Frame& frame
   return item;
 }
 
-// Its scenes are made as they are drawn, so they are no plans.
-JobResult run_adapt(const std::vector<VerifyModel>& models, Renderer& exact, const VerifyDevice& device, const VerifyOptions& options) {
-  JobResult result{kAdapt, "", {}};
+// Scenes that are made from the model as they are drawn, so they are no plans.
+JobResult run_prepared(const std::string& job, const std::vector<VerifyModel>& models, const Frame& frame, Renderer& exact,
+                       const VerifyDevice& device, const VerifyOptions& options) {
+  JobResult result{job, "", {}};
   std::string reason;
-  for (const VerifyModel& model : models) {
-    const auto progress = [&](std::size_t done, std::size_t total) {
-      if (options.on_progress)
-        options.on_progress(fmt::format("{}: {}", kAdapt, model.name), static_cast<int>(done), static_cast<int>(total));
-    };
-    AdaptCases made = adapt_cases(model, exact, device, options, progress);
+  const auto keep = [&](auto made) {
     if (!made.skipped.empty()) reason = made.skipped;
     for (CaseResult& item : made.cases) {
       if (options.on_case) options.on_case(item);
       result.cases.push_back(std::move(item));
+    }
+  };
+  for (const VerifyModel& model : models) {
+    const auto progress = [&](std::size_t done, std::size_t total) {
+      if (options.on_progress) options.on_progress(fmt::format("{}: {}", job, model.name), static_cast<int>(done), static_cast<int>(total));
+    };
+    if (job == kAdapt) {
+      keep(adapt_cases(model, exact, device, options, progress));
+      continue;
+    }
+    try {
+      keep(bake_cases(model, frame, exact, device, options, progress));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}", model.name, error.what()));
     }
   }
   if (result.cases.empty()) result.skipped = reason;
@@ -172,7 +183,7 @@ void describe_sides(VerifyResult& result, const Renderer& exact, const VerifyDev
 }  // namespace
 
 const std::vector<std::string>& verify_jobs() {
-  static const std::vector<std::string> kJobs{"render", "indexed", kAdapt};
+  static const std::vector<std::string> kJobs{"render", "indexed", kAdapt, kBake};
   return kJobs;
 }
 
@@ -196,8 +207,8 @@ VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact,
   }
   int done = 0;
   for (const JobPlan& job : jobs) {
-    if (job.job == kAdapt) {
-      result.jobs.push_back(run_adapt(models, exact, device, options));
+    if (job.job == kAdapt || job.job == kBake) {
+      result.jobs.push_back(run_prepared(job.job, models, frame, exact, device, options));
       continue;
     }
     JobResult job_result{job.job, job.skipped, {}};

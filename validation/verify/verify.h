@@ -31,12 +31,14 @@ struct NamedView {
 };
 
 struct VerifyOptions {
-  std::vector<std::string> jobs{"render", "indexed", "adapt"};
+  std::vector<std::string> jobs{"render", "indexed", "adapt", "bake"};
   std::vector<NamedView> views{{"fit", {}}, {"front", {}}};  ///< the job `indexed` uses the first
   int width = 1024;
   int height = 1024;
   int adapt_size = 256;         ///< of the job `adapt`: side of its map in texels
   std::size_t adapt_faces = 0;  ///< and its coarsest level; 0: a tenth of the model's
+  int bake_size = 256;          ///< of the job `bake`: side of its map in texels, a power of two
+  std::size_t bake_faces = 0;   ///< and its triangles; 0: a tenth of the model's, 4 to 300
   RasterState state;            ///< wanted; drawn is what the device supports of it
   int picture_px = 1024;        ///< longest side of the pictures that are kept
   int worst_count = 6;          ///< texels a scene that are shown with their surroundings

@@ -60,7 +60,7 @@ struct TargetResult {
 
 /// One scene: a model seen from one view with one sampler.
 struct CaseResult {
-  std::string job;          ///< "render", "indexed"
+  std::string job;          ///< of verify_jobs()
   std::string model;        ///< "head"
   std::string view;         ///< "fit"
   std::string sampling;     ///< "nearest", "linear"
