@@ -14,9 +14,9 @@
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/interrupt.h"
-#include "cli/length_option.h"
 #include "cli/model_input.h"
 #include "cli/range_input.h"
+#include "cli/reduction_options.h"
 #include "cli/repair_notes.h"
 #include "cli/size_option.h"
 #include "cli/usage_error.h"
@@ -32,34 +32,45 @@ using Json = nlohmann::ordered_json;
 using bake::BakeResult;
 using validation::grouped;
 
-constexpr const char* kTolerance = "bake: --tolerance";
-
 struct Options {
-  std::string scan, output, tolerance, size = "512", fill = "iterative", corners = "inset";
-  std::optional<std::int64_t> faces;
+  std::string scan, output, size = "512", fill = "iterative", corners = "inset";
+  ReductionOptions reduction;
   RangeOptions range;
+  bake::Gutter gutter;
   CommonOptions common;
 };
 
 FrameSize require_options(const Options& options) {
   if (options.output == "-") throw UsageError("bake: a model may be several files: expected -o FILE.obj, .ply or .glb");
-  if (!options.faces && options.tolerance.empty()) throw UsageError("bake: expected --faces or --tolerance");
-  if (!options.tolerance.empty() && !(parse_length(options.tolerance, 1, kTolerance) > 0))
-    throw UsageError(fmt::format("{}: expected a length above 0, got {}", kTolerance, options.tolerance));
+  if (!options.reduction.faces && options.reduction.tolerance.empty()) throw UsageError("bake: expected --faces or --tolerance");
+  (void)tolerance_of(options.reduction, 1, "bake", true);
   const FrameSize size = parse_size(options.size);
   try {
-    (void)bake::largest_size(size.width, size.height);
+    (void)bake::largest_size(size.width, size.height, options.gutter);
   } catch (const InputError& error) {
     throw UsageError(fmt::format("bake: --size: {}", error.what()));
   }
   return size;
 }
 
-std::vector<io::Material> materials_of(Image texture) {
-  return {{.name = "baked", .texture_path = {}, .texture = std::move(texture), .nearest_texel = true}};
+// With a gutter what it is for. Mip levels beyond it hold several triangles, but a sampler cannot leave them out.
+io::TextureLookup lookup_for(bake::Gutter gutter) {
+  if (!gutter) return io::TextureLookup::nearest;
+  return *gutter == 0 ? io::TextureLookup::linear : io::TextureLookup::mipmap;
 }
 
-Json to_json(const Defect& defect) { return {{"count", defect.count}, {"first", defect.first}}; }
+std::vector<io::Material> materials_of(Image texture, bake::Gutter gutter) {
+  return {{.name = "baked", .texture_path = {}, .texture = std::move(texture), .lookup = lookup_for(gutter)}};
+}
+
+double growth_of(const bake::Atlas& atlas) { return static_cast<double>(atlas.rows) / static_cast<double>(atlas.rows_without); }
+
+Json gutter_json(const BakeResult& result) {
+  const bake::Atlas& atlas = result.atlas;
+  if (!atlas.gutter) return nullptr;
+  return {{"levels", *atlas.gutter}, {"border", 1 << *atlas.gutter},       {"texels", result.texels.border},
+          {"rows", atlas.rows},      {"rows_without", atlas.rows_without}, {"growth", growth_of(atlas)}};
+}
 
 Json sizes_json(const bake::Atlas& atlas) {
   bake::SizeCounts counts{};
@@ -86,12 +97,13 @@ std::vector<validation::VerifyInput> inputs_of(const Options& options, const val
 Json document_of(const Options& options, const validation::VerifyInput& input, const io::LoadedModel& scan, const BakeResult& result,
                  std::optional<double> tolerance) {
   Json document = validation::document_head("bake", inputs_of(options, input));
-  document["target_faces"] = options.faces ? Json(*options.faces) : Json(nullptr);
+  document["target_faces"] = options.reduction.faces ? Json(*options.reduction.faces) : Json(nullptr);
   document["tolerance"] = tolerance ? Json(*tolerance) : Json(nullptr);
   document["width"] = result.atlas.width;
   document["height"] = result.atlas.height;
   document["fill"] = options.fill;
   document["corners"] = options.corners;
+  document["gutter"] = gutter_json(result);
   document["vertices_in"] = scan.mesh.vertex_count();
   document["vertices_out"] = result.mesh.vertex_count();
   document["faces_in"] = scan.mesh.face_count();
@@ -113,12 +125,7 @@ Json document_of(const Options& options, const validation::VerifyInput& input, c
   document["iterations"] = result.iterations;
   document["fill_distance_max"] = result.fill_distance_max;
   document["seam_residual_max"] = result.seam_residual;
-  const simplify::InputRepair& repair = result.simplified.repair;
-  document["repair"] = {
-      {"repeated_corners", to_json(repair.repeated_corners)},           {"duplicate_faces", to_json(repair.duplicate_faces)},
-      {"non_manifold_edges", to_json(repair.non_manifold_edges)},       {"inconsistent_edges", to_json(repair.inconsistent_edges)},
-      {"non_manifold_vertices", to_json(repair.non_manifold_vertices)}, {"unreferenced_vertices", to_json(repair.unreferenced_vertices)},
-      {"color_seam_vertices", to_json(repair.color_seam_vertices)}};
+  document["repair"] = repair_json(result.simplified.repair);
   document["mesh_sha256"] = mesh_sha256(result.mesh);
   document["texture_sha256"] = result.texture.sha256();
   validation::RunInfo run = validation::current_run(options.common.start);
@@ -140,6 +147,11 @@ void print_result(Console& console, const Options& options, const io::LoadedMode
                            result.atlas.width, result.atlas.height, grouped(result.texels.inside), grouped(result.texels.atlas),
                            sizes_json(result.atlas).back()["size"].get<int>(), sizes_json(result.atlas).front()["size"].get<int>(),
                            percent(result.texels.hit), percent(result.texels.averaged), percent(result.texels.filled)));
+  if (const bake::Atlas& atlas = result.atlas; atlas.gutter)
+    console.line(fmt::format("gutter of {} for linear lookup in {}: triangles of these sizes take {} rows, without it {}: {:.2f} times",
+                             counted(std::uint64_t{1} << *atlas.gutter, "texel"),
+                             *atlas.gutter == 0 ? "level 0" : fmt::format("levels 0 to {}", *atlas.gutter), grouped(atlas.rows),
+                             grouped(atlas.rows_without), growth_of(atlas)));
   if (result.atlas.reductions > 0)
     console.line(fmt::format("sizes were halved {} times for the map: it filters the colours", grouped(result.atlas.reductions)));
   console.line(fmt::format("largest difference across edges and vertices: {}", result.seam_residual));
@@ -156,13 +168,14 @@ int run(const Options& options) {
   files.add_input(options.scan, "the scan");
   const io::LoadedModel scan = load_scan(options.scan, options.range, files);
   add_side_files(files, scan);
-  const std::vector<std::filesystem::path> outputs = io::mesh_output_files(options.output, materials_of(Image(1, 1, kRgb8)));
+  const std::vector<std::filesystem::path> outputs =
+      io::mesh_output_files(options.output, materials_of(Image(1, 1, kRgb8), options.gutter));
   for (const std::filesystem::path& path : outputs) files.add_output(path.string(), "-o");
   files.add_output(options.common.json, "--json");
 
-  bake::BakeOptions how{.width = size.width, .height = size.height};
-  how.target_faces = static_cast<std::size_t>(options.faces.value_or(0));
-  if (!options.tolerance.empty()) how.tolerance = parse_length(options.tolerance, bounding_box(scan.mesh).diagonal(), kTolerance);
+  bake::BakeOptions how{.width = size.width, .height = size.height, .gutter = options.gutter};
+  how.target_faces = static_cast<std::size_t>(options.reduction.faces.value_or(0));
+  how.tolerance = tolerance_of(options.reduction, bounding_box(scan.mesh).diagonal(), "bake", true);
   how.fill = options.fill == "exact" ? bake::FillKind::exact : bake::FillKind::iterative;
   how.corners = options.corners == "exact" ? bake::Corners::exact : bake::Corners::inset;
   how.progress = [&](std::size_t done, std::size_t total) {
@@ -172,16 +185,16 @@ int run(const Options& options) {
   const BakeResult result = naming_the_model(options.scan, [&] { return bake::bake_scan(scan.mesh, how); });
   {
     const FinishWriting writing;
-    io::write_mesh(options.output, result.mesh, materials_of(result.texture), input.attribution);
+    io::write_mesh(options.output, result.mesh, materials_of(result.texture, options.gutter), input.attribution);
   }
   print_result(console, options, scan, result);
   if (!input.attribution.empty()) console.line("by " + input.attribution);
   for (const std::filesystem::path& path : outputs) console.line("wrote " + path.string());
   write_document(options.common, document_of(options, input, scan, result, how.tolerance));
   if (!options.common.json.empty() && options.common.json != "-") console.line("wrote " + options.common.json);
-  if (!options.faces || result.simplified.stop == simplify::StopReason::faces) return kExitDone;
-  console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused", grouped(how.target_faces)));
-  return kExitWarning;
+  if (!options.reduction.faces) return kExitDone;
+  print_unreached(console, result.simplified, how.target_faces);
+  return result.simplified.stop == simplify::StopReason::faces ? kExitDone : kExitWarning;
 }
 
 }  // namespace
@@ -193,14 +206,7 @@ Verb add_bake(CLI::App& root) {
       ->required()
       ->type_name("SCAN")
       ->check(not_empty());
-  app->add_option("--faces", options->faces, "Stop at this many triangles")
-      ->type_name("N")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 32));
-  app->add_option("--tolerance", options->tolerance,
-                  "Let no vertex of the scan be farther than this from the result: model units, or 0.5% of the diagonal; alone, or with "
-                  "--faces, whichever comes first")
-      ->type_name("D")
-      ->check(not_empty());
+  add_reduction_options(*app, options->reduction, 1, "scan", "--faces");
   app->add_option("--size", options->size, "Texels of the map, the width a power of two (default 512x512)")
       ->type_name("WxH")
       ->check(not_empty());
@@ -216,7 +222,13 @@ Verb add_bake(CLI::App& root) {
       ->type_name("inset|exact")
       ->check(CLI::IsMember({"inset", "exact"}));
   add_range_options(*app, options->range);
-  app->add_option("-o,--output", options->output, "Model to write, its texture beside or in it: .obj .ply .glb; for nearest lookup")
+  app->add_option("--gutter", options->gutter,
+                  "Surround each triangle with 2^N texels, so that linear filtering, in mip levels 0 to N too, shows no other triangle's "
+                  "texels; N: 0 to 8 (default: none, for nearest lookup)")
+      ->type_name("N")
+      ->check(CLI::Range(0, bake::kLargestGutter));
+  app->add_option("-o,--output", options->output,
+                  "Model to write, its texture beside or in it: .obj .ply .glb; for nearest lookup, or with a gutter linear")
       ->required()
       ->type_name("MODEL")
       ->check(not_empty());
@@ -224,6 +236,7 @@ Verb add_bake(CLI::App& root) {
                      "  etalon bake scan.ply --faces 1000 -o scan1000.glb\n"
                      "  etalon bake scan.ply --tolerance 0.2% --size 1024x512 --fill exact -o near.obj\n"
                      "  etalon bake depth.tif --texture colour.png --spacing 0.7 --depth-scale 0.1 --faces 2000 -o scan.glb\n"
+                     "  etalon bake scan.ply --faces 1000 --size 1024 --gutter 3 -o smooth.glb\n"
                      "  etalon render near.obj --filter nearest -o near.png");
   return {app, [options] { return run(*options); }};
 }

@@ -21,4 +21,17 @@ void print_repair(Console& console, const simplify::InputRepair& repair) {
   say(repair.unreferenced_vertices, "vertices of no face", "vertex", "dropped");
 }
 
+nlohmann::ordered_json repair_json(const simplify::InputRepair& repair) {
+  nlohmann::ordered_json document = nlohmann::ordered_json::object();
+  const auto add = [&](const char* name, const Defect& defect) { document[name] = {{"count", defect.count}, {"first", defect.first}}; };
+  add("repeated_corners", repair.repeated_corners);
+  add("duplicate_faces", repair.duplicate_faces);
+  add("non_manifold_edges", repair.non_manifold_edges);
+  add("inconsistent_edges", repair.inconsistent_edges);
+  add("non_manifold_vertices", repair.non_manifold_vertices);
+  add("unreferenced_vertices", repair.unreferenced_vertices);
+  add("color_seam_vertices", repair.color_seam_vertices);
+  return document;
+}
+
 }  // namespace etalon::cli

@@ -14,6 +14,7 @@
 #include "cli/interrupt.h"
 #include "cli/length_option.h"
 #include "cli/model_input.h"
+#include "cli/reduction_options.h"
 #include "cli/repair_notes.h"
 #include "cli/usage_error.h"
 #include "core/io/inputs.h"
@@ -29,11 +30,9 @@ using Json = nlohmann::ordered_json;
 using simplify::SimplifyResult;
 using validation::grouped;
 
-constexpr const char* kTolerance = "simplify: --tolerance";
-
 struct Options {
-  std::string model, output, metric = "qem", collapse = "half", tolerance, unit;
-  std::optional<std::int64_t> faces;
+  std::string model, output, metric = "qem", collapse = "half", unit;
+  ReductionOptions reduction;
   std::optional<double> ratio, weight;
   double min_cosine = simplify::LegalityOptions{}.min_normal_cosine;
   bool refuse_non_manifold = false;
@@ -81,14 +80,12 @@ Job read_job(const Options& options, CallFiles& files) {
   job.vertices_read = job.model.mesh.vertex_count();
   job.model.mesh = welded_by_position(job.model.mesh);
   const std::size_t faces = job.model.mesh.face_count();
-  if (options.faces) job.target_faces = static_cast<std::size_t>(*options.faces);
+  if (options.reduction.faces) job.target_faces = static_cast<std::size_t>(*options.reduction.faces);
   if (options.ratio) job.target_faces = simplify::faces_for_ratio(faces, *options.ratio);
-  if (!options.tolerance.empty()) job.tolerance = parse_length(options.tolerance, bounding_box(job.model.mesh).diagonal(), kTolerance);
+  job.tolerance = tolerance_of(options.reduction, bounding_box(job.model.mesh).diagonal(), "simplify", false);
   if (!options.unit.empty()) job.unit = unit_of(options.unit, bounding_box(job.model.mesh).diagonal());
   return job;
 }
-
-Json to_json(const Defect& defect) { return {{"count", defect.count}, {"first", defect.first}}; }
 
 Json document_of(const Options& options, const Job& job, const SimplifyResult& result) {
   const double diagonal = bounding_box(job.model.mesh).diagonal();
@@ -115,14 +112,8 @@ Json document_of(const Options& options, const Job& job, const SimplifyResult& r
   Json refusals = Json::object();
   for (std::size_t i = 1; i < simplify::kRefusalCount; ++i) refusals[to_string(static_cast<simplify::Refusal>(i))] = result.refusals[i];
   document["refusals"] = std::move(refusals);
-  document["repair"] = {{"repeated_corners", to_json(result.repair.repeated_corners)},
-                        {"duplicate_faces", to_json(result.repair.duplicate_faces)},
-                        {"non_manifold_edges", to_json(result.repair.non_manifold_edges)},
-                        {"inconsistent_edges", to_json(result.repair.inconsistent_edges)},
-                        {"non_manifold_vertices", to_json(result.repair.non_manifold_vertices)},
-                        {"unreferenced_vertices", to_json(result.repair.unreferenced_vertices)},
-                        {"color_seam_vertices", to_json(result.repair.color_seam_vertices)},
-                        {"welded_vertices", job.vertices_read - job.model.mesh.vertex_count()}};
+  document["repair"] = repair_json(result.repair);
+  document["repair"]["welded_vertices"] = job.vertices_read - job.model.mesh.vertex_count();
   document["mesh_sha256"] = mesh_sha256(result.mesh);
   validation::RunInfo run = validation::current_run(options.common.start);
   run.paths = {options.model, options.output};
@@ -157,10 +148,11 @@ int run(const Options& options) {
   if (options.weight && !has_attributes) throw UsageError("simplify: --weight is of --metric qem5, qem6 and hoppe");
   if ((options.metric == "kim" || options.metric == "aps") && options.collapse == "full")
     throw UsageError(fmt::format("simplify: --metric {} is of half-edge collapses: --collapse half", options.metric));
-  if (options.faces && options.ratio) throw UsageError("simplify: expected one of --faces and --ratio, got both");
-  if (!options.faces && !options.ratio && options.tolerance.empty())
+  const ReductionOptions& reduction = options.reduction;
+  if (reduction.faces && options.ratio) throw UsageError("simplify: expected one of --faces and --ratio, got both");
+  if (!reduction.faces && !options.ratio && reduction.tolerance.empty())
     throw UsageError("simplify: expected one of --faces, --ratio and --tolerance");
-  if (!options.tolerance.empty()) (void)parse_length(options.tolerance, 1, kTolerance);
+  (void)tolerance_of(reduction, 1, "simplify", false);
   if (!options.unit.empty()) (void)unit_of(options.unit, 1);
   require_writable_file(options.output);
   require_writable_file(options.common.json);
@@ -202,12 +194,8 @@ int run(const Options& options) {
   else
     console.line(fmt::format("no vertex of the model is farther than {:.6g} from the result", *result.distance_max));
   console.line(refusals_line(result));
-  const bool by_faces = options.faces || options.ratio;
-  if (by_faces && result.stop == simplify::StopReason::tolerance)
-    console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused, some for the tolerance",
-                             grouped(job.target_faces)));
-  if (by_faces && result.stop == simplify::StopReason::exhausted)
-    console.line(fmt::format("stopped above the {} faces asked for: every collapse left is refused", grouped(job.target_faces)));
+  const bool by_faces = reduction.faces || options.ratio;
+  if (by_faces) print_unreached(console, result, job.target_faces);
   if (!job.input.attribution.empty()) console.line("by " + job.input.attribution);
   for (const std::filesystem::path& path : outputs) console.line("wrote " + path.string());
   write_document(options.common, document_of(options, job, result));
@@ -221,17 +209,10 @@ Verb add_simplify(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("simplify", "Write a model with fewer triangles: edge collapses in strict order of error");
   app->add_option("model", options->model, "Mesh: .obj .ply .glb .gltf")->required()->type_name("MODEL")->check(not_empty());
-  app->add_option("--faces", options->faces, "Stop at this many triangles")
-      ->type_name("N")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 32));
+  add_reduction_options(*app, options->reduction, 0, "model", "--faces or --ratio");
   app->add_option("--ratio", options->ratio, "Stop at this share of the model's triangles, 0 to 1")
       ->type_name("R")
       ->check(number_between(0, 1));
-  app->add_option("--tolerance", options->tolerance,
-                  "Let no vertex of the model be farther than this from the result: model units, or 0.5% of the diagonal; alone, or with "
-                  "--faces or --ratio, whichever comes first")
-      ->type_name("D")
-      ->check(not_empty());
   app->add_option(
          "--collapse", options->collapse,
          "half: a vertex goes into a neighbour, vertices keep their places (default); full: both ends of an edge go where the error "

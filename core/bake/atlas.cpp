@@ -1,6 +1,7 @@
 #include "core/bake/atlas.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -8,6 +9,36 @@
 
 namespace etalon::bake {
 namespace {
+
+// The lower left texel of a rectangle.
+struct Corner {
+  int x = 0, y = 0;
+};
+
+// A rectangle for each of the widths, which descend.
+std::vector<Corner> pair_corners(Atlas& atlas, const std::vector<int>& widths) {
+  std::vector<Corner> corners;
+  corners.reserve(widths.size());
+  const auto add = [&](int x, std::uint64_t top, int height) {
+    corners.push_back({x, atlas.height - static_cast<int>(top) - height});
+    atlas.rows = std::max(atlas.rows, top + static_cast<std::uint64_t>(height));
+  };
+  SizeCounts counts{};
+  for (const int width : widths) counts[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(width))) % kSizeCount] += 2;
+  atlas.rows_without = tiling_height(counts, atlas.width);
+  if (!atlas.gutter) {
+    const std::vector<Place> places = tile_rectangles(widths, atlas.width);
+    for (std::size_t n = 0; n < widths.size(); ++n) add(places[n].x, places[n].top, widths[n] + 1);
+    return corners;
+  }
+  for (const PairRun& run : tile_pairs(counts, atlas.width, *atlas.gutter).runs) {
+    const PairBlock block = pair_block(run.size, *atlas.gutter);
+    for (std::uint64_t n = 0; n < run.count; ++n)
+      add(run.x + static_cast<int>(n % run.columns) * block.width, run.top + n / run.columns * static_cast<std::uint64_t>(block.height),
+          block.height);
+  }
+  return corners;
+}
 
 // Largest first, then by face; two of one size to a rectangle. Of a pair the first is the upper half, so that a last one alone leaves the
 // lower half free.
@@ -26,12 +57,16 @@ void place_tiles(Atlas& atlas) {
     tile.turned = !second;
     rectangle[n] = widths.size() - 1;
   }
-  const std::vector<Place> places = tile_rectangles(widths, atlas.width);
+  const std::vector<Corner> corners = pair_corners(atlas, widths);
   for (std::size_t n = 0; n < order.size(); ++n) {
     Tile& tile = atlas.tiles[order[n]];
-    const Place& place = places[rectangle[n]];
-    tile.x = place.x;
-    tile.y = atlas.height - static_cast<int>(place.top) - tile.size - 1;
+    tile.x = corners[rectangle[n]].x;
+    tile.y = corners[rectangle[n]].y;
+    if (!atlas.gutter) continue;
+    const int border = 1 << *atlas.gutter;
+    const PairBlock block = pair_block(tile.size, *atlas.gutter);
+    tile.x += tile.turned ? block.width - border - tile.size : border;
+    tile.y += tile.turned ? block.height - border - tile.size - 1 : border;
   }
 }
 
@@ -85,16 +120,22 @@ std::uint64_t Atlas::inside_count() const {
   return count;
 }
 
-Atlas make_atlas(const std::vector<double>& ratios, int width, int height) {
-  const TriangleSizes sizes = choose_sizes(ratios, width, height);
-  Atlas atlas{.width = width, .height = height, .tiles = {}, .reductions = sizes.reductions, .handed_down = sizes.handed_down};
+std::uint64_t Atlas::border_count() const {
+  std::uint64_t count = 0;
+  for (const Tile& tile : tiles) count += gutter ? border_texels(tile.size, *gutter) : 0;
+  return count;
+}
+
+Atlas make_atlas(const std::vector<double>& ratios, int width, int height, Gutter gutter) {
+  const TriangleSizes sizes = choose_sizes(ratios, width, height, {}, gutter);
+  Atlas atlas{.width = width, .height = height, .reductions = sizes.reductions, .handed_down = sizes.handed_down, .gutter = gutter};
   for (const int size : sizes.sizes) atlas.tiles.push_back({.size = size});
   place_tiles(atlas);
   return atlas;
 }
 
-Atlas make_atlas(const Mesh& mesh, double spacing, int width, int height) {
-  Atlas atlas = make_atlas(size_ratios(mesh, spacing), width, height);
+Atlas make_atlas(const Mesh& mesh, double spacing, int width, int height, Gutter gutter) {
+  Atlas atlas = make_atlas(size_ratios(mesh, spacing), width, height, gutter);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) atlas.tiles[f].right_corner = corner_of_right_angle(mesh, FaceId(f));
   return atlas;
 }

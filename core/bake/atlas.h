@@ -17,7 +17,9 @@ struct TexelPlace {
 /// plane in which its corners are (0, 0), (size, 0) and (0, size): all points of it but those of the hypotenuse with integer coordinates
 /// lie in its own texels.
 struct Tile {
-  int x = 0, y = 0;      ///< lowest column and row of the rectangle of size × (size + 1) texels that it shares with another
+  /// Lowest column and row of the rectangle of size × (size + 1) texels whose lower left or upper right half it is; without a gutter the other
+  /// half is another's.
+  int x = 0, y = 0;
   int size = 2;          ///< d, a power of two
   bool turned = false;   ///< by 180°: it is the upper right half, with the same orientation
   int right_corner = 0;  ///< the face's corner at (0, 0); the next one, counter-clockwise, is at (size, 0)
@@ -42,17 +44,22 @@ struct Atlas {
   int width = 0, height = 0;                    ///< texels
   std::vector<Tile> tiles;                      ///< #F
   std::size_t reductions = 0, handed_down = 0;  ///< as TriangleSizes
+  Gutter gutter;
+  std::uint64_t rows = 0;          ///< that the tiling takes from the map's top
+  std::uint64_t rows_without = 0;  ///< that triangles of these sizes take without a gutter
 
   /// Texels of all triangles.
   [[nodiscard]] std::uint64_t inside_count() const;
+  /// Texels of their borders; 0 without a gutter.
+  [[nodiscard]] std::uint64_t border_count() const;
 };
 
 /// The atlas of a mesh whose scan has the mean spacing `spacing` (above 0, model units). Its longest side is each triangle's hypotenuse (ties:
-/// the side that starts at the lower corner). Rectangles are placed from the largest, in each size two faces in ascending order to one.
-/// InputError as choose_sizes().
-[[nodiscard]] Atlas make_atlas(const Mesh& mesh, double spacing, int width, int height);
+/// the side that starts at the lower corner). Rectangles are placed from the largest, in each size two faces in ascending order to one;
+/// with a gutter as tile_pairs() does. InputError as choose_sizes().
+[[nodiscard]] Atlas make_atlas(const Mesh& mesh, double spacing, int width, int height, Gutter gutter = {});
 /// The same for given ratios of sizes, all of whose triangles have the right angle at corner 0.
-[[nodiscard]] Atlas make_atlas(const std::vector<double>& ratios, int width, int height);
+[[nodiscard]] Atlas make_atlas(const std::vector<double>& ratios, int width, int height, Gutter gutter = {});
 
 /// How far each side of a triangle of size d is drawn in, as a share of d: 1/8192, or more where float32 coordinates need it, so that a point
 /// interpolated with an error of 5·2^-24 in each coordinate still falls in a texel of its own (docs/papers/bake.md).

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/bake/gutter.h"
 #include "core/bake/seams.h"
 #include "core/bake/vertex_landings.h"
 #include "core/base/error.h"
@@ -30,7 +31,7 @@ void require_input(const Mesh& scan, const BakeOptions& options) {
         throw InputError(fmt::format("vertex {}: expected a finite colour, got {}", v, scan.colors[v][c]));
   if (options.tolerance && !(*options.tolerance > 0))
     throw InputError(fmt::format("expected a tolerance above 0, got {}", *options.tolerance));
-  (void)largest_size(options.width, options.height);
+  (void)largest_size(options.width, options.height, options.gutter);
 }
 
 // Each face with wedges of its own.
@@ -74,7 +75,8 @@ simplify::SimplifyResult decimated(const Mesh& dense, const BakeOptions& options
 
 TexelCounts counts_of(const Atlas& atlas, const TexelColors& colors) {
   TexelCounts counts{.atlas = static_cast<std::uint64_t>(atlas.width) * static_cast<std::uint64_t>(atlas.height),
-                     .inside = colors.hits.size()};
+                     .inside = colors.hits.size(),
+                     .border = atlas.border_count()};
   for (const std::uint32_t hits : colors.hits) {
     counts.hit += hits > 0;
     counts.averaged += hits > 1;
@@ -94,7 +96,7 @@ BakeResult bake_scan(const Mesh& scan, const BakeOptions& options) {
 
   result.spacing = mean_edge_length(dense);
   if (!(result.spacing > 0)) throw InputError("expected a surface, got edges that all have length 0");
-  result.atlas = make_atlas(mesh, result.spacing, options.width, options.height);
+  result.atlas = make_atlas(mesh, result.spacing, options.width, options.height, options.gutter);
   const Atlas& atlas = result.atlas;
   const TexelNodes nodes(mesh, atlas);
   const TexelColors colors = average_colors(atlas, nodes, dense.colors, result.simplified.landings);
@@ -103,6 +105,7 @@ BakeResult bake_scan(const Mesh& scan, const BakeOptions& options) {
   const SurfaceFill fill = options.fill == FillKind::exact ? fill_exactly(problem) : fill_iteratively(problem);
 
   result.texture = painted(atlas, filled_colors(colors, fill));
+  paint_borders(atlas, result.texture);
   result.share = options.corners == Corners::exact ? 0 : drawn_in_share(atlas);
   result.mesh = textured(mesh, atlas, result.share);
   result.texels = counts_of(atlas, colors);

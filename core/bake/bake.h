@@ -22,21 +22,23 @@ struct BakeOptions {
   int width = 512, height = 512;    ///< texels; width a power of two
   FillKind fill = FillKind::iterative;
   Corners corners = Corners::inset;
+  Gutter gutter;  ///< mip levels, 0 to 8, in which linear lookup stays within a triangle and its border
   std::function<void(std::size_t done, std::size_t total)> progress;  ///< of the simplification
 };
 
 struct TexelCounts {
   std::uint64_t atlas = 0;     ///< width · height
   std::uint64_t inside = 0;    ///< in triangles
+  std::uint64_t border = 0;    ///< in their borders, with a gutter
   std::uint64_t hit = 0;       ///< whose node some vertex of the scan fell into
   std::uint64_t averaged = 0;  ///< of these: two vertices or more
   std::uint64_t filled = 0;    ///< inside − hit
 };
 
 struct BakeResult {
-  /// Its own three wedges for every face, with texture coordinates for nearest lookup; no colours, no materials.
+  /// Its own three wedges for every face, with texture coordinates for nearest lookup, with a gutter linear too; no colours, no materials.
   Mesh mesh;
-  Image texture;  ///< RGB unorm8, black where no triangle is
+  Image texture;  ///< RGB unorm8, black where no triangle and no border is
   simplify::SimplifyResult simplified;
   Atlas atlas;
   double spacing = 0;  ///< D_i, model units

@@ -18,17 +18,31 @@ namespace {
 // Class k holds the triangles of size 2^k.
 std::size_t class_of(int size) { return static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(size))) % kSizeCount; }
 
+constexpr int kLargestMap = 32768;
+
+// Throws where the triangles do not fit even at the least size.
+void require_room(std::size_t triangles, int width, int height, Gutter gutter) {
+  const std::uint64_t least = least_height(triangles, width, gutter), square = least_square(triangles, gutter);
+  if (least <= static_cast<std::uint64_t>(height)) return;
+  std::string would_do;
+  if (least <= kLargestMap) would_do = fmt::format("the smallest of this width is {}x{}, ", width, least);
+  would_do += square <= kLargestMap ? fmt::format("the smallest square {0}x{0}", square)
+                                    : fmt::format("nor in the largest, {0}x{0}: expected fewer triangles", kLargestMap);
+  throw InputError(fmt::format("{} triangles do not fit in a texture map of {}x{}{}: {}", triangles, width, height,
+                               gutter ? fmt::format(" with a gutter for {} mip levels", *gutter) : "", would_do));
+}
+
 // (proximity or ratio, face): least first.
 using Entry = std::pair<double, std::uint32_t>;
 using Queue = std::priority_queue<Entry, std::vector<Entry>, std::greater<>>;
 
 class Filter {
  public:
-  Filter(const std::vector<double>& ratios, int width, int height)
-      : ratios_(ratios), width_(width), height_(static_cast<std::uint64_t>(height)) {
-    const int largest = largest_size(width, height);
+  Filter(const std::vector<double>& ratios, int width, int height, Gutter gutter)
+      : ratios_(ratios), width_(width), height_(static_cast<std::uint64_t>(height)), gutter_(gutter), least_(least_size(gutter)) {
+    const int largest = largest_size(width, height, gutter);
     for (std::uint32_t f = 0; f < ratios.size(); ++f) {
-      result_.sizes.push_back(wanted_size(ratios[f], largest));
+      result_.sizes.push_back(wanted_size(ratios[f], largest, least_));
       ++counts_[class_of(result_.sizes[f])];
     }
   }
@@ -36,7 +50,7 @@ class Filter {
   TriangleSizes run(const std::function<void(const SizeStep&)>& observe) {
     Queue queue;
     for (std::uint32_t f = 0; f < ratios_.size(); ++f)
-      if (result_.sizes[f] > 2) queue.emplace(proximity(f), f);
+      if (result_.sizes[f] > least_) queue.emplace(proximity(f), f);
     while (!fits()) {
       ETALON_CHECK(!queue.empty(), "all triangles are of the least size, and the map was found large enough for that");
       const auto [least, f] = queue.top();
@@ -44,7 +58,7 @@ class Filter {
       if (observe) observe({FaceId(f), result_.sizes[f], least});
       halve(f);
       ++result_.reductions;
-      if (result_.sizes[f] > 2) queue.emplace(proximity(f), f);
+      if (result_.sizes[f] > least_) queue.emplace(proximity(f), f);
     }
     make_even();
     return std::move(result_);
@@ -57,8 +71,12 @@ class Filter {
   [[nodiscard]] bool fits() const {
     const SizeCounts even = even_counts(counts_);
     std::uint64_t area = 0;
-    for (std::size_t k = 1; k < kSizeCount; ++k) area += even[k] * texels_of_size(std::uint64_t{1} << k);
-    return area <= static_cast<std::uint64_t>(width_) * height_ && tiling_height(even, width_) <= height_;
+    for (int k = 1; k < kSizeCount; ++k) {
+      const std::uint64_t count = even[static_cast<std::size_t>(k)], d = std::uint64_t{1} << k;
+      area += count * (gutter_ ? texels_of_size(d) + border_texels(1 << k, *gutter_) : texels_of_size(d));
+    }
+    if (area > static_cast<std::uint64_t>(width_) * height_) return false;
+    return (gutter_ ? tile_pairs(even, width_, *gutter_).height : tiling_height(even, width_)) <= height_;
   }
 
   void halve(std::uint32_t f) {
@@ -84,6 +102,8 @@ class Filter {
   const std::vector<double>& ratios_;
   int width_;
   std::uint64_t height_;
+  Gutter gutter_;
+  int least_;
   SizeCounts counts_{};
   TriangleSizes result_;
 };
@@ -136,34 +156,44 @@ std::vector<double> size_ratios(const Mesh& mesh, double spacing) {
   return ratios;
 }
 
-int wanted_size(double ratio, int largest) {
-  int size = 2;
+int wanted_size(double ratio, int largest, int least) {
+  int size = least;
   while (size < largest && size < ratio) size *= 2;
   return size;
 }
 
-int largest_size(int width, int height) {
-  constexpr int kLargest = 32768;
-  if (width < 2 || width > kLargest || !std::has_single_bit(static_cast<unsigned>(width)))
-    throw InputError(fmt::format("a texture map of {}x{}: expected a width that is a power of two, 2 to {}", width, height, kLargest));
-  if (height < 3 || height > kLargest)
-    throw InputError(fmt::format("a texture map of {}x{}: expected a height of 3 to {}", width, height, kLargest));
+int largest_size(int width, int height, Gutter gutter) {
+  if (width < 2 || width > kLargestMap || !std::has_single_bit(static_cast<unsigned>(width)))
+    throw InputError(fmt::format("a texture map of {}x{}: expected a width that is a power of two, 2 to {}", width, height, kLargestMap));
+  if (height < 3 || height > kLargestMap)
+    throw InputError(fmt::format("a texture map of {}x{}: expected a height of 3 to {}", width, height, kLargestMap));
   int size = width;
-  while (size + 1 > height) size /= 2;
+  if (!gutter) {
+    while (size + 1 > height) size /= 2;
+    return size;
+  }
+  if (*gutter < 0 || *gutter > kLargestGutter)
+    throw InputError(fmt::format("expected a gutter for 0 to {} mip levels, got {}", kLargestGutter, *gutter));
+  if (height % (1 << *gutter) != 0)
+    throw InputError(fmt::format("a texture map of {0}x{1} with a gutter for {2} mip levels: expected a height that is a multiple of {3}",
+                                 width, height, *gutter, 1 << *gutter));
+  const auto fits = [&](int d) { return pair_block(d, *gutter).width <= width && pair_block(d, *gutter).height <= height; };
+  while (size > least_size(gutter) && !fits(size)) size /= 2;
+  const PairBlock least = pair_block(least_size(gutter), *gutter);
+  if (!fits(size))
+    throw InputError(fmt::format("a texture map of {}x{} with a gutter for {} mip levels: expected at least {}x{}", width, height, *gutter,
+                                 std::bit_ceil(static_cast<unsigned>(least.width)), least.height));
   return size;
 }
 
-TriangleSizes choose_sizes(const std::vector<double>& ratios, int width, int height, const std::function<void(const SizeStep&)>& observe) {
-  (void)largest_size(width, height);
+TriangleSizes choose_sizes(const std::vector<double>& ratios, int width, int height, const std::function<void(const SizeStep&)>& observe,
+                           Gutter gutter) {
+  (void)largest_size(width, height, gutter);
   for (std::size_t f = 0; f < ratios.size(); ++f)
     if (!(ratios[f] >= 0) || std::isinf(ratios[f]))
       throw InputError(fmt::format("triangle {}: its longest edge over the spacing: expected a finite number, got {}", f, ratios[f]));
-  const std::uint64_t least = least_height(ratios.size(), width);
-  if (least > static_cast<std::uint64_t>(height))
-    throw InputError(
-        fmt::format("{} triangles do not fit in a texture map of {}x{}: the smallest of this width is {}x{}, the smallest square {}x{}",
-                    ratios.size(), width, height, width, least, least_square(ratios.size()), least_square(ratios.size())));
-  return Filter(ratios, width, height).run(observe);
+  require_room(ratios.size(), width, height, gutter);
+  return Filter(ratios, width, height, gutter).run(observe);
 }
 
 }  // namespace etalon::bake

@@ -125,18 +125,23 @@ class GlbWriter {
         binary_ += image;
         json_["images"].push_back({{"bufferView", end_view(0)}, {"mimeType", mime_type(image, m)}});
         json_["textures"].push_back({{"source", json_["images"].size() - 1}});
-        if (m.nearest_texel) json_["textures"].back()["sampler"] = nearest_sampler();
+        if (m.lookup != TextureLookup::any) json_["textures"].back()["sampler"] = sampler_of(m.lookup);
         material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", json_["textures"].size() - 1}};
       }
       json_["materials"].push_back(std::move(material));
     }
   }
 
-  // NEAREST both ways, CLAMP_TO_EDGE: the one sampler of the file.
-  std::size_t nearest_sampler() {
-    if (!json_.contains("samplers"))
-      json_["samplers"] = Json::array({{{"magFilter", 9728}, {"minFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33071}}});
-    return 0;
+  // NEAREST, LINEAR, LINEAR_MIPMAP_LINEAR; CLAMP_TO_EDGE. Equal ones once.
+  std::size_t sampler_of(TextureLookup lookup) {
+    const int magnified = lookup == TextureLookup::nearest ? 9728 : 9729;
+    const int minified = lookup == TextureLookup::mipmap ? 9987 : magnified;
+    Json sampler{{"magFilter", magnified}, {"minFilter", minified}, {"wrapS", 33071}, {"wrapT", 33071}};
+    Json& samplers = json_["samplers"];
+    for (std::size_t n = 0; n < samplers.size(); ++n)
+      if (samplers[n] == sampler) return n;
+    samplers.push_back(std::move(sampler));
+    return samplers.size() - 1;
   }
 
   const char* mime_type(const std::string& image, const Material& m) const {

@@ -12,12 +12,20 @@
 
 namespace etalon::io {
 
+/// How a texture is meant to be looked up.
+enum class TextureLookup : std::uint8_t {
+  any,      ///< as a viewer does
+  nearest,  ///< the nearest texel
+  linear,   ///< between four texels, in level 0 alone
+  mipmap,   ///< between four texels in each of two mip levels
+};
+
 struct Material {
   std::string name;
   std::optional<std::filesystem::path> texture_path;  ///< of an existing file beside the model, ready to open
   Image texture;                                      ///< embedded in the model file (GLB), rows as everywhere; else empty
-  /// The texture is meant to be looked up at its nearest texel. Written to .glb (a sampler that says so), never read; OBJ and PLY cannot say it.
-  bool nearest_texel = false;
+  /// Written to .glb (a sampler that says so, and no wrapping), never read; OBJ and PLY cannot say it.
+  TextureLookup lookup = TextureLookup::any;
 };
 
 struct LoadedModel {
