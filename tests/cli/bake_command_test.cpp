@@ -32,6 +32,13 @@ json run_bake(const ScratchFolder& folder, std::vector<std::string> arguments, i
   return document;
 }
 
+// A triangle whose first x and first red are as given.
+std::string nan_triangle(const std::string& x, const std::string& red) {
+  return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float red\n"
+         "property float green\nproperty float blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+         x + " 0 0 " + red + " 0 0\n1 1 0 0 1 0\n0 1 0 0 0 1\n3 0 1 2\n";
+}
+
 bool holds(const ScratchFolder& folder, const std::string& file, const std::string& text) {
   return read_text(folder.path() / file).find(text) != std::string::npos;
 }
@@ -78,6 +85,35 @@ TEST_CASE("bake: a model with its texture in each format, the document, the same
     CHECK(run_etalon({"render", model, "--filter", "nearest", "--size", "64", "-o", "view.png"}, {.folder = folder.path()}).exit_code == 0);
 }
 
+TEST_CASE("bake --gutter: its growth is said, and a GLB asks for the lookup that it is for") {
+  const ScratchFolder folder;
+  make_knot(folder);
+  const std::vector<std::string> common{"knot.ply", "--faces", "300", "--size", "512"};
+  const auto baked = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), common.begin(), common.end());
+    return run_bake(folder, more, 0);
+  };
+  CHECK(baked({"-o", "none.glb"})["gutter"].is_null());
+  const json level0 = baked({"--gutter", "0", "-o", "zero.glb"})["gutter"], level2 = baked({"--gutter", "2", "-o", "two.glb"})["gutter"];
+  CHECK(holds(folder, "none.glb", "\"magFilter\":9728,\"minFilter\":9728"));
+  CHECK(holds(folder, "zero.glb", "\"magFilter\":9729,\"minFilter\":9729"));
+  CHECK(holds(folder, "two.glb", "\"magFilter\":9729,\"minFilter\":9987"));
+  CHECK(level0["border"] == 1);
+  CHECK(level2["levels"] == 2);
+  CHECK(level2["border"] == 4);
+  CHECK(level0["growth"] > 1);
+  CHECK(level2["growth"] > level0["growth"]);
+  CHECK(level2["growth"].get<double>() == level2["rows"].get<double>() / level2["rows_without"].get<double>());
+  std::vector<std::string> told{"bake"};
+  told.insert(told.end(), common.begin(), common.end());
+  told.insert(told.end(), {"--gutter", "2", "-o", "two.obj"});
+  const CommandResult result = run_etalon(told, {.folder = folder.path()});
+  CHECK(result.exit_code == 0);
+  CHECK(result.out.find("gutter of 4 texels for linear lookup in levels 0 to 2: triangles of these sizes take") != std::string::npos);
+  CHECK(run_etalon({"render", "two.obj", "--filter", "linear", "--size", "64", "-o", "view.png"}, {.folder = folder.path()}).exit_code ==
+        0);
+}
+
 TEST_CASE("bake: a tolerance is kept; a count that cannot be reached is a warning") {
   const ScratchFolder folder;
   make_knot(folder);
@@ -102,6 +138,19 @@ TEST_CASE("bake: what the scan has of no use or in disorder is said") {
   CHECK(document["seam_residual_max"] == 0);
 }
 
+TEST_CASE("bake: a single triangle, and triangles without area, are baked") {
+  const ScratchFolder folder;
+  folder.file("one.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
+  const json one = run_bake(folder, {"one.obj", "--faces", "1", "--size", "2x3", "-o", "small.obj"}, 0);
+  CHECK(one["faces_out"] == 1);
+  CHECK(one["texels"]["inside"] == 3);
+  CHECK(one["texels"]["hit"] == 3);
+  folder.file("line.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 2 0 0 0 0 1\nv 0 1 0 1 1 1\nf 1 2 3\nf 1 3 4\n");
+  const json line = run_bake(folder, {"line.obj", "--faces", "2", "--size", "32", "-o", "line.ply"}, 0);
+  CHECK(line["faces_out"] == 2);
+  CHECK(line["seam_residual_max"] == 0);
+}
+
 TEST_CASE("bake: refusals name what was expected, and nothing is written") {
   const ScratchFolder folder;
   folder.file("square.obj", square_obj());
@@ -120,6 +169,23 @@ TEST_CASE("bake: refusals name what was expected, and nothing is written") {
   refused({"knot.ply", "--tolerance", "-1", "-o", "a.obj"}, 64, "a length");
   refused({"knot.ply", "--tolerance", "near", "-o", "a.obj"}, 64, "bake: --tolerance");
   refused({"knot.ply", "-o", "a.obj"}, 64, "expected --faces or --tolerance");
+  refused({"knot.ply", "--faces", "400", "--size", "1", "-o", "a.obj"}, 64, "a texture map of 1x1");
+  refused({"knot.ply", "--faces", "400", "--gutter", "9", "-o", "a.obj"}, 64, "gutter");
+  refused({"knot.ply", "--faces", "400", "--gutter", "-1", "-o", "a.obj"}, 64, "gutter");
+  refused({"knot.ply", "--faces", "400", "--gutter", "3", "--size", "64x68", "-o", "a.obj"}, 64, "a height that is a multiple of 8");
+  refused({"knot.ply", "--faces", "400", "--gutter", "5", "--size", "32", "-o", "a.obj"}, 64, "expected at least 64x128");
+  refused({"knot.ply", "--faces", "400", "--gutter", "3", "--size", "128", "-o", "a.obj"}, 4,
+          "the smallest of this width is 128x800, the smallest square 512x512");
+  folder.file("nan_place.ply", nan_triangle("nan", "255"));
+  folder.file("nan_color.ply", nan_triangle("1", "nan"));
+  folder.file("empty.ply",
+              "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+              "property uchar green\nproperty uchar blue\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n");
+  folder.file("point.obj", "v 0 0 0 1 0 0\nv 0 0 0 0 1 0\nv 0 0 0 0 0 1\nf 1 2 3\n");
+  refused({"nan_place.ply", "--faces", "1", "-o", "a.obj"}, 4, "nan_place.ply");
+  refused({"nan_color.ply", "--faces", "1", "-o", "a.obj"}, 4, "nan_color.ply");
+  refused({"empty.ply", "--faces", "1", "-o", "a.obj"}, 4, "empty.ply");
+  refused({"point.obj", "--faces", "1", "-o", "a.obj"}, 4, "point.obj");
   refused({"knot.ply", "--faces", "0", "-o", "a.obj"}, 64, "faces");
   refused({"knot.ply", "--faces", "400", "--fill", "magic", "-o", "a.obj"}, 64, "magic");
   refused({"knot.ply", "--faces", "400", "--corners", "round", "-o", "a.obj"}, 64, "round");
