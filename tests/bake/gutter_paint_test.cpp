@@ -53,8 +53,9 @@ Mesh smooth_knot() {
   const auto box = bounding_box(mesh);
   for (std::size_t v = 0; v < mesh.colors.size(); ++v) {
     const Vec3f p = mesh.positions[v];
-    mesh.colors[v] = {(p.x - box.lo.x) / (box.hi.x - box.lo.x), (p.y - box.lo.y) / (box.hi.y - box.lo.y),
-                      (p.z - box.lo.z) / (box.hi.z - box.lo.z), 1};
+    // Far from 0 and 255, so that no a + b − c is cut.
+    mesh.colors[v] = {0.25f + 0.5f * (p.x - box.lo.x) / (box.hi.x - box.lo.x), 0.25f + 0.5f * (p.y - box.lo.y) / (box.hi.y - box.lo.y),
+                      0.25f + 0.5f * (p.z - box.lo.z) / (box.hi.z - box.lo.z), 1};
   }
   return mesh;
 }
