@@ -16,6 +16,8 @@
 #include "cli/adapt_command.h"
 #include "cli/bake_command.h"
 #include "cli/console.h"
+#include "cli/diff_command.h"
+#include "cli/diff_files.h"
 #include "cli/exit_code.h"
 #include "cli/info_command.h"
 #include "cli/interrupt.h"
@@ -42,7 +44,8 @@ using namespace etalon::cli;
 void require_known_verb(int argc, char** argv, const std::vector<Verb>& verbs) {
   if (argc < 2)
     throw UsageError(
-        "expected a verb: verify, render, info, make, simplify, progressive, adapt, bake, joint, metro, study or selftest (see etalon "
+        "expected a verb: verify, render, info, make, simplify, progressive, adapt, bake, joint, metro, diff, study or selftest (see "
+        "etalon "
         "--help)");
   const std::string typed = argv[1];
   if (typed.empty() || typed.front() == '-') return;
@@ -68,12 +71,14 @@ int run(int argc, char** argv) {
   root.footer(
       "Examples:\n  etalon verify\n  etalon verify spot.obj --report spot-report\n  etalon render head.glb -o head.png\n"
       "Exit codes: 0 done, 1 warning, 2 check failed, 3 sizes differ, 4 bad input or write error, 64 usage, 130 interrupted.");
-  const std::vector<Verb> verbs{add_verify(root),   add_render(root),      add_info(root),  add_make(root),
-                                add_simplify(root), add_progressive(root), add_adapt(root), add_bake(root),
-                                add_joint(root),    add_metro(root),       add_study(root), add_selftest(root)};
+  const std::vector<Verb> verbs{add_verify(root),      add_render(root), add_info(root),    add_make(root),  add_simplify(root),
+                                add_progressive(root), add_adapt(root),  add_bake(root),    add_joint(root), add_metro(root),
+                                add_diff(root),        add_study(root),  add_selftest(root)};
   require_known_verb(argc, argv, verbs);
   try {
-    root.parse(argc, argv);
+    std::vector<std::string> arguments = with_two_dashes({argv + 1, argv + argc});
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+    root.parse(arguments);
   } catch (const CLI::Success& request) {  // --help, --version
     std::ostringstream text;
     root.exit(request, text, text);

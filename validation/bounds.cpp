@@ -31,11 +31,19 @@ DeviceModel measured_model(const std::string& name, double factor, const std::st
   return {.name = name, .origin = BoundOrigin::measured, .valid_for = valid_for, .factor = factor};
 }
 
+DeviceModel specified_model(const std::string& name, double unit_roundoffs, int coordinate_bits, const std::string& section) {
+  DeviceModel model{.name = name, .origin = BoundOrigin::specified, .valid_for = section, .factor = unit_roundoffs};
+  // Rounded or truncated to the grid: less than one step of it.
+  if (coordinate_bits > 0) model.coordinate_error_texel = std::ldexp(1.0, -coordinate_bits);
+  return model;
+}
+
 std::string to_string(BoundOrigin origin) {
   switch (origin) {
     case BoundOrigin::exact: return "exact";
     case BoundOrigin::derived: return "derived";
     case BoundOrigin::measured: return "measured";
+    case BoundOrigin::specified: return "specified";
   }
   return "?";
 }
@@ -138,7 +146,7 @@ double texel_margin_bound(double u, double error_u, int size, bool wraps_by_frac
   // x − floor(x) of a small negative x rounds near 1 (u/2), and the product is then that of a number up to 1.
   if (wraps_by_fraction) bound += n * (kUnitRoundoff * std::max(0.0, 1 - std::abs(u)) + 0.5 * kUnitRoundoff);
   if (linear) bound += kUnitRoundoff * (std::abs(u) * n + 0.5);  // fl(u·n − ½)
-  return bound * kEvaluationSlack;
+  return bound * kEvaluationSlack + device.coordinate_error_texel;
 }
 
 double srgb_polynomial_decode(int c) {

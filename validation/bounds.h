@@ -11,18 +11,20 @@ namespace etalon::validation {
 
 inline constexpr double kUnitRoundoff = 0x1p-24;  ///< u of float32: |fl(x) − x| <= u·|x|
 
-enum class BoundOrigin { exact, derived, measured };
+/// specified: what an API promises of single operations, put into the shape of a derived bound; like measured, no proof.
+enum class BoundOrigin { exact, derived, measured, specified };
 
-/// What is known about the arithmetic of a device. Make one with contract_model(), llvmpipe_model() or measured_model().
+/// What is known about the arithmetic of a device. Make one with contract_model(), llvmpipe_model(), measured_model() or specified_model().
 struct DeviceModel {
   std::string name;
   BoundOrigin origin = BoundOrigin::derived;
-  std::string valid_for;             ///< renderer and versions, or date and factor of the measurement
-  double factor = 1;                 ///< multiplies every interpolation bound; 0 for a device that keeps the contract to the last bit
-  bool fixed_point_linear8 = false;  ///< unorm8 textures are filtered with 8-bit weights and 8-bit results (gallivm's AoS path)
-  bool srgb_polynomial = false;      ///< sRGB is decoded by gallivm's polynomial and encoded by its approximation
-  bool unorm_toward_zero = false;    ///< unorm targets are truncated: no device declares it, diagnosis asks it
-  double depth_quantum = 0;          ///< spacing of the depth buffer's values; 0 for float32
+  std::string valid_for;              ///< renderer and versions, or date and factor of the measurement
+  double factor = 1;                  ///< multiplies every interpolation bound; 0 for a device that keeps the contract to the last bit
+  bool fixed_point_linear8 = false;   ///< unorm8 textures are filtered with 8-bit weights and 8-bit results (gallivm's AoS path)
+  bool srgb_polynomial = false;       ///< sRGB is decoded by gallivm's polynomial and encoded by its approximation
+  bool unorm_toward_zero = false;     ///< unorm targets are truncated: no device declares it, diagnosis asks it
+  double coordinate_error_texel = 0;  ///< of texel coordinates that are kept in fixed point, beside what float32 costs them
+  double depth_quantum = 0;           ///< spacing of the depth buffer's values; 0 for float32
 };
 
 /// The oracle itself: every bound 0, any difference is a defect.
@@ -31,6 +33,10 @@ struct DeviceModel {
 [[nodiscard]] DeviceModel llvmpipe_model();
 /// The shape of llvmpipe's bound times `factor`, for a device whose arithmetic is not published. A result on it is not called proven.
 [[nodiscard]] DeviceModel measured_model(const std::string& name, double factor, const std::string& valid_for);
+
+/// The same shape at the accuracy that a specification gives single operations: `unit_roundoffs` times 2^-24, and texel coordinates in
+/// fixed point of `coordinate_bits` (0: they stay float32). `section`: where it says so.
+[[nodiscard]] DeviceModel specified_model(const std::string& name, double unit_roundoffs, int coordinate_bits, const std::string& section);
 
 [[nodiscard]] std::string to_string(BoundOrigin origin);
 

@@ -52,7 +52,7 @@ struct DiffResult {
 
   [[nodiscard]] bool agreed() const { return counts[TexelClass::unexplained] == 0; }
   /// Proven: agreed, and on bounds that are derived.
-  [[nodiscard]] bool proven() const { return agreed() && bound_origin != BoundOrigin::measured; }
+  [[nodiscard]] bool proven() const { return agreed() && (bound_origin == BoundOrigin::exact || bound_origin == BoundOrigin::derived); }
 };
 
 /// `golden` and `candidate`: one image per target of the frame, in order, as Renderer::render() returns them; an empty image is "not given".

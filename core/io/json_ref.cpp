@@ -58,9 +58,11 @@ bool JsonRef::boolean() const {
 
 void JsonRef::require_only(std::initializer_list<const char*> keys) const {
   if (!value_->is_object()) fail(fmt::format("expected an object, got {}", value_->type_name()));
-  for (const auto& [key, value] : value_->items())
+  for (const auto& member : value_->items()) {
+    const std::string& key = member.key();
     if (std::none_of(keys.begin(), keys.end(), [&](const char* known) { return key == known; }))
       fail(fmt::format("expected one of {}, got a member '{}'", fmt::join(keys, ", "), printable(key)));
+  }
 }
 
 }  // namespace etalon::io

@@ -187,7 +187,8 @@ TEST_CASE("draws: a wrong field is named, with what was expected and got") {
       {"\"triangles\":1", "\"triangles\":4294967294", "a.draws: arrays: expected to end at byte"},
       {"{\"schema\"", "[\"schema\"", "a.draws: header: expected JSON"},
   };
-  for (const auto& [from, to, message] : wrong) {
+  for (const auto& row : wrong) {
+    const std::string &from = row[0], &to = row[1], &message = row[2];
     const std::string said = header_refusal(from, to);
     CAPTURE(to);
     CHECK_MESSAGE(said.starts_with(message), said);

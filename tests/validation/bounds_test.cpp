@@ -203,5 +203,14 @@ TEST_CASE("the texel coordinate in float32 stays within its margin bound, wrappe
   }
 }
 
+TEST_CASE("a specified device: the derived shape at another accuracy, texel coordinates on a grid, and no proof") {
+  const DeviceModel device = specified_model("d", 5, 8, "somewhere");
+  CHECK(to_string(device.origin) == "specified");
+  CHECK(texel_margin_bound(0.5, 0, 64, false, false, device) ==
+        texel_margin_bound(0.5, 0, 64, false, false, llvmpipe_model()) + 0x1p-8);  // a truncated coordinate is less than one step off
+  CHECK(specified_model("d", 5, 0, "").coordinate_error_texel == 0);
+  CHECK(vertex_depth_error(1, device) == 5 * vertex_depth_error(1, llvmpipe_model()));
+}
+
 }  // namespace
 }  // namespace etalon::validation

@@ -65,7 +65,7 @@ void compare_row(const double* a, const double* b, int width, int channels, cons
       const double error = difference(*a, *b);
       if (error == 0) continue;
       differs = true;
-      const double mean = 0.5 * (std::abs(*a) + std::abs(*b));
+      const double mean = std::isfinite(error) ? 0.5 * (std::abs(*a) + std::abs(*b)) : 0;  // what is not finite is over any share of it
       if (std::isfinite(error)) {
         sums.absolute += error;
         sums.squared += error * error;

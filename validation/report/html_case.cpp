@@ -41,7 +41,7 @@ std::string same_label(const CaseResult& item, const TargetResult& target) {
     others += fmt::format("{} {} differs in {}", others.empty() ? ";" : ",", lower_title(other.content),
                           grouped(other.difference->differing_texels));
   }
-  return others.empty() ? "CPU, exact = OpenGL" : lower_title(target.content) + " identical" + others;
+  return others.empty() ? item.sides.exact + " = " + item.sides.device : lower_title(target.content) + " identical" + others;
 }
 
 // The page bounds a frame's height by its width: a tall one must fit the window.
@@ -54,22 +54,25 @@ std::string comparison(const CaseResult& item, const TargetResult& target) {
   const std::string subject = fmt::format("{} of {}", content_title(target.content), item.name());
   if (!target.difference) {
     return "<figure class=\"main\">" + frame_start("frame", target.cpu_picture) +
-           picture("cpu", target.cpu_picture, subject + ", drawn by the exact rasterizer") +
-           "<span class=\"label left\">CPU, exact</span></div><figcaption><span>There is no OpenGL picture to compare "
+           picture("cpu", target.cpu_picture, subject + ", by " + item.sides.exact_long) + "<span class=\"label left\">" +
+           escaped(item.sides.exact) +
+           "</span></div><figcaption><span>There is no OpenGL picture to compare "
            "with.</span></figcaption></figure>";
   }
   if (target.gl_picture.empty()) {
     return "<figure class=\"main\">" + frame_start("frame", target.cpu_picture) +
-           picture("cpu", target.cpu_picture, subject + ", the same bytes from both renderers") + "<span class=\"label left\">" +
+           picture("cpu", target.cpu_picture, subject + ", the same bytes on both sides") + "<span class=\"label left\">" +
            escaped(same_label(item, target)) +
-           "</span></div><figcaption><span>Both renderers gave the same bytes of this target.</span></figcaption></figure>";
+           "</span></div><figcaption><span>Both sides have the same bytes of this target.</span></figcaption></figure>";
   }
   return "<figure class=\"main\">" + frame_start("frame slider", target.cpu_picture) +
-         picture("cpu", target.cpu_picture, subject + ", drawn by the exact rasterizer") + "<div class=\"over\">" +
-         picture("gl", target.gl_picture, subject + ", drawn by OpenGL") +
-         "</div><span class=\"label left\">CPU, exact</span><span class=\"label right\">OpenGL</span>"
-         "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.5\" value=\"50\" aria-label=\"Divider between the exact rasterizer, left, "
-         "and OpenGL, right\">"
+         picture("cpu", target.cpu_picture, subject + ", by " + item.sides.exact_long) + "<div class=\"over\">" +
+         picture("gl", target.gl_picture, subject + ", by " + item.sides.device_long) +
+         fmt::format(
+             "</div><span class=\"label left\">{}</span><span class=\"label right\">{}</span>"
+             "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.5\" value=\"50\" aria-label=\"Divider between {}, left, and {}, "
+             "right\">",
+             escaped(item.sides.exact), escaped(item.sides.device), escaped(item.sides.exact_long), escaped(item.sides.device_long)) +
          "<span class=\"handle\"></span></div><figcaption><span>Drag, or use the arrow keys. Point at a texel to see its "
          "neighbourhood.</span></figcaption></figure>";
 }
@@ -183,12 +186,13 @@ std::string worst_texels(const CaseResult& item) {
   if (item.worst.empty()) return "";
   std::string cards;
   for (const WorstTexel& texel : item.worst) {
-    cards +=
-        "<div class=\"texel\"><div class=\"crops\">" + crop_figure(texel.cpu_crop, "CPU") + crop_figure(texel.gl_crop, "OpenGL") + "</div>";
+    cards += "<div class=\"texel\"><div class=\"crops\">" + crop_figure(texel.cpu_crop, item.sides.exact_short) +
+             crop_figure(texel.gl_crop, item.sides.device_short) + "</div>";
     cards += fmt::format(
-        "<div class=\"what\"><b class=\"mono\">({}, {})</b> &nbsp;{}<dl><dt>CPU</dt><dd>{}</dd><dt>GL</dt><dd>{}</dd></dl></div><p "
+        "<div class=\"what\"><b class=\"mono\">({}, {})</b> &nbsp;{}<dl><dt>{}</dt><dd>{}</dd><dt>{}</dt><dd>{}</dd></dl></div><p "
         "class=\"why\">{}</p></div>",
-        texel.x, texel.y, class_chip(texel.texel_class), escaped(texel.cpu_value), escaped(texel.gl_value), escaped(texel.explanation));
+        texel.x, texel.y, class_chip(texel.texel_class), escaped(item.sides.exact_short), escaped(texel.cpu_value),
+        escaped(item.sides.device_short), escaped(texel.gl_value), escaped(texel.explanation));
   }
   const char* lead = item.tally.unexplained > 0 ? "unexplained ones first" : "none of them unexplained";
   return fmt::format("<details{}><summary>{} texels farthest from agreement, {}</summary><div class=\"worst\">{}</div></details>",
@@ -222,12 +226,17 @@ std::string case_article(const CaseResult& item, const std::string& id) {
   for (const TargetResult& target : item.targets)
     picture_side = std::max({picture_side, target.cpu_picture.width(), target.cpu_picture.height()});
   const int step = (std::max(item.width, item.height) + picture_side - 1) / picture_side;
+  std::string figures = fmt::format("{} × {}", item.width, item.height);
+  if (item.triangles > 0) {
+    figures += fmt::format(" · {} triangles · {} texels covered · CPU {:.2f} s · GL {:.2f} s", grouped(item.triangles),
+                           grouped(item.covered), item.cpu_seconds, item.gl_seconds);
+  }
   std::string html = fmt::format(
-      "<article class=\"card\" id=\"{0}\" aria-labelledby=\"{0}-title\" data-step=\"{8}\"><div class=\"card-head\"><div><h3 "
+      "<article class=\"card\" id=\"{0}\" aria-labelledby=\"{0}-title\" data-step=\"{4}\" data-left=\"{5}\" data-right=\"{6}\"><div "
+      "class=\"card-head\"><div><h3 "
       "id=\"{0}-title\">{1}</h3><p class=\"soft\">{2}</p></div>"
-      "<p class=\"soft num\">{3} × {4} · {5} triangles · {9} texels covered · CPU {6:.2f} s · GL {7:.2f} s</p></div>",
-      id, escaped(item.name()), escaped(item.description), item.width, item.height, grouped(item.triangles), item.cpu_seconds,
-      item.gl_seconds, step, grouped(item.covered));
+      "<p class=\"soft num\">{3}</p></div>",
+      id, escaped(item.name()), escaped(item.description), figures, step, escaped(item.sides.exact), escaped(item.sides.device));
   if (!item.skipped.empty()) return html + "<div class=\"callout quiet\"><b>Skipped.</b> " + escaped(item.skipped) + "</div></article>";
   if (!item.diagnosis.empty()) html += "<div class=\"callout\"><b>Diagnosis.</b> " + escaped(item.diagnosis) + "</div>";
   html += fmt::format("<div class=\"tabs\" role=\"tablist\" aria-label=\"Targets of {}\">", escaped(item.name()));

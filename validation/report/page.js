@@ -55,7 +55,7 @@
   const TEXELS = 17, SCALE = 8;
   const show = (article, event, frame) => {
     const panel = article.querySelector('[role="tabpanel"]:not([hidden])');
-    const images = [['CPU, exact', panel.querySelector('.cpu')], ['OpenGL', panel.querySelector('.gl')], ['class, enlarged', article.querySelector('.classes')]]
+    const images = [[article.dataset.left, panel.querySelector('.cpu')], [article.dataset.right, panel.querySelector('.gl')], ['class, enlarged', article.querySelector('.classes')]]
       .filter(([, image]) => image && image.naturalWidth);
     if (!images.length) return;
     const box = frame.getBoundingClientRect();

@@ -177,7 +177,7 @@ void describe_sides(VerifyResult& result, const Renderer& exact, const VerifyDev
   }
   result.gl_name = device.renderer->name();
   result.bounds_origin = fmt::format("{}: {}", to_string(device.model.origin), device.model.valid_for);
-  result.bounds_measured = device.model.origin == BoundOrigin::measured;
+  result.bounds_measured = device.model.origin == BoundOrigin::measured || device.model.origin == BoundOrigin::specified;
 }
 
 }  // namespace

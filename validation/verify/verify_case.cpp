@@ -58,16 +58,6 @@ std::string diagnosis_of(const DiffResult& diff, const DrawnPair& pair, const Dr
   return text + ".";
 }
 
-void classify(CaseResult& item, const DrawnPair& pair, const DrawList& list, const Frame& frame, const VerifyDevice& device,
-              const VerifyOptions& options, int reach, const std::function<DrawList(SnapRounding)>& scene_with_snap) {
-  constexpr int kCandidates = 256;  // enough to find texels of each class among them
-  const DiffResult diff = diff_images(list, frame, device.model, pair.cpu, pair.gl, {.worst_count = kCandidates, .keep_class_image = true});
-  item.tally = tally_of(diff.counts);
-  item.diagnosis = diagnosis_of(diff, pair, list, frame, device.model, scene_with_snap);
-  item.worst = worst_texels(diff, pair, frame.targets, options.worst_count);
-  item.class_picture = reduced(class_picture(pair.cpu_picture.front(), diff.class_image, reach), options.picture_px);
-}
-
 std::uint64_t covered_texels(const Image& ids) {
   std::uint64_t count = 0;
   for (int y = 0; y < ids.height(); ++y) {
@@ -77,6 +67,17 @@ std::uint64_t covered_texels(const Image& ids) {
 }
 
 }  // namespace
+
+DiffResult classify_case(CaseResult& item, const DrawnPair& pair, const DrawList& list, const Frame& frame, const DeviceModel& model,
+                         const VerifyOptions& options, int reach, const std::function<DrawList(SnapRounding)>& scene_with_snap) {
+  constexpr int kCandidates = 256;  // enough to find texels of each class among them
+  DiffResult diff = diff_images(list, frame, model, pair.cpu, pair.gl, {.worst_count = kCandidates, .keep_class_image = true});
+  item.tally = tally_of(diff.counts);
+  item.diagnosis = diagnosis_of(diff, pair, list, frame, model, scene_with_snap);
+  item.worst = worst_texels(diff, pair, frame.targets, options.worst_count);
+  item.class_picture = reduced(class_picture(pair.cpu_picture.front(), diff.class_image, reach), options.picture_px);
+  return diff;
+}
 
 void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Renderer& exact, const VerifyDevice& device,
                   const VerifyOptions& options, const std::function<DrawList(SnapRounding)>& scene_with_snap) {
@@ -93,7 +94,7 @@ void compare_case(CaseResult& item, const DrawList& list, const Frame& frame, Re
   const Stopwatch compare;
   const int reach = mark_reach(frame, options.picture_px);
   picture_targets(pair, frame);
-  if (device.renderer != nullptr) classify(item, pair, list, frame, device, options, reach, scene_with_snap);
+  if (device.renderer != nullptr) (void)classify_case(item, pair, list, frame, device.model, options, reach, scene_with_snap);
   for (std::size_t t = 0; t < frame.targets.size(); ++t)
     item.targets.push_back(measure_target(pair, t, frame.targets[t], options.picture_px, reach));
   item.compare_seconds = compare.seconds();

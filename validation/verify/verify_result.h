@@ -58,8 +58,16 @@ struct TargetResult {
   Image error_picture;  ///< empty where nothing differs; brightness: log2 of the difference
 };
 
+/// What a page calls the two sides.
+struct SideNames {
+  std::string exact = "CPU, exact", device = "OpenGL";
+  std::string exact_long = "the exact rasterizer", device_long = "OpenGL";
+  std::string exact_short = "CPU", device_short = "GL";
+};
+
 /// One scene: a model seen from one view with one sampler.
 struct CaseResult {
+  SideNames sides;
   std::string job;          ///< of verify_jobs()
   std::string model;        ///< "head"
   std::string view;         ///< "fit"

@@ -1,0 +1,49 @@
+#include "validation/diff/picture.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/sha256.h"
+#include "core/io/exr_file.h"
+#include "core/io/image_file.h"
+#include "core/io/inputs.h"
+
+namespace etalon::validation {
+namespace {
+
+bool is_exr(std::span<const std::byte> bytes) {
+  constexpr std::array kMagic{std::byte{0x76}, std::byte{0x2f}, std::byte{0x31}, std::byte{0x01}};
+  return bytes.size() >= kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
+}
+
+bool has_channel(const io::ExrContent& content, const std::string& name) {
+  return std::any_of(content.layers.begin(), content.layers.end(),
+                     [&](const io::ExrLayer& layer) { return layer.channel_names.front() == name; });
+}
+
+}  // namespace
+
+Picture read_picture(const std::string& path) {
+  const io::FileBytes bytes = io::read_file(path);
+  Picture picture{.path = path, .sha256 = sha256_hex(bytes.bytes())};
+  if (!is_exr(bytes.bytes())) {
+    picture.color = io::decode_image(bytes.bytes(), path);
+    return picture;
+  }
+  const io::ExrContent content = io::decode_exr(bytes.bytes(), path);
+  picture.attributes = content.attributes;
+  if (has_channel(content, "id.triangle")) picture.ids = io::channels_image(content, {"id.triangle"}, path);
+  if (has_channel(content, "Z")) picture.depth = io::channels_image(content, {"Z"}, path);
+  if (picture.ids.empty() || picture.ids.format() != kR32ui) picture.ids = {};
+  if (picture.depth.empty() || picture.depth.format() != kR32f) picture.depth = {};
+  const bool colored = has_channel(content, "R") || has_channel(content, "Y");
+  if (!colored && !picture.depth.empty())
+    picture.color = picture.depth;
+  else if (!colored && !picture.ids.empty())
+    picture.color = picture.ids;
+  else
+    picture.color = io::color_image(content, path);
+  return picture;
+}
+
+}  // namespace etalon::validation

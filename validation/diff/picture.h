@@ -1,0 +1,23 @@
+// A picture from a file, as `etalon diff` takes it: the colours, and what a margins file holds beside them.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/image/image.h"
+
+namespace etalon::validation {
+
+struct Picture {
+  std::string path;
+  std::string sha256;                             ///< of the file
+  Image color;                                    ///< of a picture that has only ids or depth: that
+  Image ids;                                      ///< `id.triangle`; empty where there is none
+  Image depth;                                    ///< `Z` as float32; likewise
+  std::map<std::string, std::string> attributes;  ///< text of an OpenEXR header
+};
+
+/// InputError as read_image() and read_exr().
+[[nodiscard]] Picture read_picture(const std::string& path);
+
+}  // namespace etalon::validation
