@@ -176,7 +176,9 @@ int run(const Options& options) {
   bake::BakeOptions how{.width = size.width, .height = size.height, .gutter = options.gutter};
   how.target_faces = static_cast<std::size_t>(options.reduction.faces.value_or(0));
   how.tolerance = tolerance_of(options.reduction, bounding_box(scan.mesh).diagonal(), "bake", true);
-  how.fill = options.fill == "exact" ? bake::FillKind::exact : bake::FillKind::iterative;
+  how.fill = options.fill == "exact"     ? bake::FillKind::exact
+             : options.fill == "sampled" ? bake::FillKind::sampled
+                                         : bake::FillKind::iterative;
   how.corners = options.corners == "exact" ? bake::Corners::exact : bake::Corners::inset;
   how.progress = [&](std::size_t done, std::size_t total) {
     console.progress("faces removed", static_cast<int>(done), static_cast<int>(total));
@@ -213,9 +215,9 @@ Verb add_bake(CLI::App& root) {
   app->add_option(
          "--fill", options->fill,
          "What texels that no vertex fell into take: the colour of the nearest on the surface, by the paper's iteration (default) or "
-         "exactly")
-      ->type_name("iterative|exact")
-      ->check(CLI::IsMember({"iterative", "exact"}));
+         "exactly; sampled (not the paper's): all texels take the scan's colours between its vertices")
+      ->type_name("iterative|exact|sampled")
+      ->check(CLI::IsMember({"iterative", "exact", "sampled"}));
   app->add_option("--corners", options->corners,
                   "Texture coordinates: drawn in by 1/8192 of a triangle's size, so that its points are looked up in its own texels "
                   "(default); or the paper's, on the corners of texels")

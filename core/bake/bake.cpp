@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/bake/gutter.h"
+#include "core/bake/scan_colors.h"
 #include "core/bake/seams.h"
 #include "core/bake/vertex_landings.h"
 #include "core/base/error.h"
@@ -85,6 +86,24 @@ TexelCounts counts_of(const Atlas& atlas, const TexelColors& colors) {
   return counts;
 }
 
+// Every texel's colour, and into the result how the fill went.
+std::vector<Rgb8> completed_colors(const Mesh& dense, const TexelNodes& nodes, const TexelColors& colors, FillKind kind,
+                                   BakeResult& result) {
+  const Mesh& mesh = result.simplified.mesh;
+  if (kind == FillKind::sampled) {
+    ScanColors sampled = sample_scan(dense, mesh, result.atlas, nodes);
+    result.fill_distance_max = sampled.distance_max;
+    return std::move(sampled.color);
+  }
+  const TexelMetric metric(mesh, result.atlas);
+  const FillProblem problem{result.atlas, nodes, colors, metric};
+  const SurfaceFill fill = kind == FillKind::exact ? fill_exactly(problem) : fill_iteratively(problem);
+  result.iterations = fill.iterations;
+  for (const std::uint64_t distance : fill.distance)
+    result.fill_distance_max = std::max(result.fill_distance_max, static_cast<double>(distance) * metric.step_length());
+  return filled_colors(colors, fill);
+}
+
 }  // namespace
 
 BakeResult bake_scan(const Mesh& scan, const BakeOptions& options) {
@@ -100,19 +119,12 @@ BakeResult bake_scan(const Mesh& scan, const BakeOptions& options) {
   const Atlas& atlas = result.atlas;
   const TexelNodes nodes(mesh, atlas);
   const TexelColors colors = average_colors(atlas, nodes, dense.colors, result.simplified.landings);
-  const TexelMetric metric(mesh, atlas);
-  const FillProblem problem{atlas, nodes, colors, metric};
-  const SurfaceFill fill = options.fill == FillKind::exact ? fill_exactly(problem) : fill_iteratively(problem);
-
-  result.texture = painted(atlas, filled_colors(colors, fill));
+  result.texels = counts_of(atlas, colors);
+  result.texture = painted(atlas, completed_colors(dense, nodes, colors, options.fill, result));
   paint_borders(atlas, result.texture);
   result.share = options.corners == Corners::exact ? 0 : drawn_in_share(atlas);
   result.mesh = textured(mesh, atlas, result.share);
-  result.texels = counts_of(atlas, colors);
   result.without_face = colors.without_face;
-  result.iterations = fill.iterations;
-  for (const std::uint64_t distance : fill.distance)
-    result.fill_distance_max = std::max(result.fill_distance_max, static_cast<double>(distance) * metric.step_length());
   result.seam_residual = largest_seam_residual(mesh, atlas, result.texture);
   return result;
 }

@@ -10,6 +10,7 @@ namespace etalon::bake {
 enum class FillKind : std::uint8_t {
   iterative,  ///< the paper's distance transforms
   exact,      ///< the least distances on the surface
+  sampled,    ///< ours, not the paper's: every texel takes the colours of the scan's surface around it, hit or not: sample_scan()
 };
 enum class Corners : std::uint8_t {
   inset,  ///< drawn in: every point of a triangle is looked up in its own texels
@@ -46,8 +47,9 @@ struct BakeResult {
   TexelCounts texels;
   std::size_t without_face = 0;  ///< vertices of the scan in no face: their colours go nowhere
   int iterations = 0;            ///< of the iterative fill
-  double fill_distance_max = 0;  ///< of a texel to what it took its colour from, on the surface, model units
-  int seam_residual = 0;         ///< largest_seam_residual() of the texture
+  double fill_distance_max =
+      0;                  ///< of a texel to what it took its colour from, model units: on the surface; sampled: in space, to the scan
+  int seam_residual = 0;  ///< largest_seam_residual() of the texture
 };
 
 /// Simplifies by qem half-edge collapses and bakes the colours (their first three channels). Every vertex lands near where the collapses took

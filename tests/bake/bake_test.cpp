@@ -80,7 +80,7 @@ TEST_CASE("no seam anywhere: on the written texture, by either fill, for several
   for (const Mesh* scan : {&knot(), &duck()})
     for (const std::size_t faces : {60, 400})
       for (const int width : {64, 256})
-        for (const FillKind fill : {FillKind::iterative, FillKind::exact}) {
+        for (const FillKind fill : {FillKind::iterative, FillKind::exact, FillKind::sampled}) {
           const BakeResult result = bake_scan(*scan, {.target_faces = faces, .width = width, .height = width - 10, .fill = fill});
           CHECK(result.mesh.face_count() <= faces);
           CHECK(result.seam_residual == 0);
@@ -112,29 +112,34 @@ TEST_CASE("a texel changed on a side is a seam; one inside is not") {
 }
 
 TEST_CASE("within the tolerance; every colour of the texture is a mean of the scan's; the same for every thread count") {
-  const BakeOptions options{.tolerance = 0.02, .width = 256, .height = 256};
-  const BakeResult result = bake_scan(duck(), options);
-  CHECK(*result.simplified.distance_audited <= 0.02);
-  CHECK(result.mesh.face_count() < duck().face_count() / 2);
-  for (const int threads : {1, 3}) {
-    set_thread_count(threads);
-    const BakeResult again = bake_scan(duck(), options);
-    CHECK(again.mesh == result.mesh);
-    CHECK(again.texture == result.texture);
+  BakeOptions options{.tolerance = 0.02, .width = 256, .height = 256};
+  for (const FillKind fill : {FillKind::iterative, FillKind::sampled}) {
+    options.fill = fill;
+    const BakeResult result = bake_scan(duck(), options);
+    CHECK(*result.simplified.distance_audited <= 0.02);
+    CHECK(result.mesh.face_count() < duck().face_count() / 2);
+    for (const int threads : {1, 3}) {
+      set_thread_count(threads);
+      const BakeResult again = bake_scan(duck(), options);
+      CHECK(again.mesh == result.mesh);
+      CHECK(again.texture == result.texture);
+    }
+    set_thread_count(0);
   }
-  set_thread_count(0);
 }
 
 TEST_CASE("one colour stays one colour, and a scan that keeps all its triangles shows its own at their corners") {
   Mesh scan = knot();
   for (Vec4f& color : scan.colors) color = {0.2f, 0.4f, 0.6f, 1};
-  const BakeResult plain = bake_scan(scan, {.target_faces = 200, .width = 128, .height = 128});
-  for (std::uint32_t f = 0; f < plain.mesh.face_count(); ++f)
-    for_each_texel(plain.atlas.tiles[f].size, [&](int i, int j) {
-      const auto [x, y] = plain.atlas.tiles[f].place(i, j);
-      const std::uint8_t* const c = plain.texture.channels<std::uint8_t>(x, y);
-      REQUIRE((c[0] == 51 && c[1] == 102 && c[2] == 153));
-    });
+  for (const FillKind fill : {FillKind::iterative, FillKind::sampled}) {
+    const BakeResult plain = bake_scan(scan, {.target_faces = 200, .width = 128, .height = 128, .fill = fill});
+    for (std::uint32_t f = 0; f < plain.mesh.face_count(); ++f)
+      for_each_texel(plain.atlas.tiles[f].size, [&](int i, int j) {
+        const auto [x, y] = plain.atlas.tiles[f].place(i, j);
+        const std::uint8_t* const c = plain.texture.channels<std::uint8_t>(x, y);
+        REQUIRE((c[0] == 51 && c[1] == 102 && c[2] == 153));
+      });
+  }
   const Mesh small = procedural::make_knot({.rings = 24, .around = 8});
   const BakeResult whole = bake_scan(small, {.target_faces = small.face_count(), .width = 128, .height = 128});
   REQUIRE(whole.mesh.face_count() == small.face_count());

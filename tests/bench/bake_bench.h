@@ -70,7 +70,8 @@ class DenseViews {
 struct BakeRivalResult {
   std::string title, skipped;                                        ///< skipped: why MeshLab was not run
   std::vector<double> our_wall, our_cpu, meshlab_wall, meshlab_cpu;  ///< seconds, by round
-  std::vector<ViewQuality> rows;                                     ///< ours; MeshLab's, nearest and linear
+  std::vector<double> sampled_wall, sampled_cpu;                     ///< ours with --fill sampled
+  std::vector<ViewQuality> rows;                                     ///< ours; MeshLab's, nearest and linear; ours with --fill sampled
 };
 /// `program`: etalon. MeshLab gets the mesh that ours has simplified: that it need not do.
 [[nodiscard]] BakeRivalResult measure_bake_rival(const BakeScan& scan, const std::string& program, int rounds);

@@ -67,7 +67,8 @@ std::string rival_table(const Json& rival) {
   if (rival.contains("skipped")) return table + fmt::format("skipped: {}\n\n", rival.at("skipped").get<std::string>());
   table += "| program | seconds | CPU seconds |\n|---|---|---|\n";
   for (const auto& [name, key] :
-       {std::pair("`etalon bake`, decimation included", "ours"), std::pair("`meshlabserver`, decimated before", "meshlab")})
+       {std::pair("`etalon bake`, decimation included", "ours"), std::pair("the same with `--fill sampled`", "sampled"),
+        std::pair("`meshlabserver`, decimated before", "meshlab")})
     table += fmt::format("| {} | {:.2f} | {:.2f} |\n", name, rival.at(key).at("wall").get<double>(), rival.at(key).at("cpu").get<double>());
   return table + "\n" + rows_table(rival.at("rows"));
 }
@@ -131,16 +132,23 @@ std::vector<Figure> bake_figures(const BakeBenchResult& result) {
            .goal = 3});
   for (const BakeRivalResult& rival : result.rivals) {
     Figure wall{.title = fmt::format("{}: time of MeshLab's process ÷ ours", rival.title), .goal = 1, .skipped = rival.skipped};
-    Figure cpu = wall, quality = wall;
+    Figure cpu = wall, quality = wall, sampled_wall = wall, sampled_near = wall, sampled_better = wall;
     cpu.title = fmt::format("{}: its CPU time ÷ ours", rival.title);
     quality.title = fmt::format("{}: ours − MeshLab's better lookup, dB where both show it", rival.title);
-    quality.goal = 0;
+    sampled_wall.title = fmt::format("{}: time of MeshLab's process ÷ ours, `--fill sampled`", rival.title);
+    sampled_near.title = fmt::format("{}: ours, `--fill sampled` − MeshLab's, both nearest, dB where both show it", rival.title);
+    sampled_better.title = fmt::format("{}: ours, `--fill sampled` − MeshLab's better lookup, dB where both show it", rival.title);
+    quality.goal = sampled_near.goal = sampled_better.goal = 0;
     if (rival.skipped.empty()) {
       wall.values = ratios(rival.meshlab_wall, rival.our_wall);
       cpu.values = ratios(rival.meshlab_cpu, rival.our_cpu);
-      quality.values = {rival.rows.at(0).both_db - std::max(rival.rows.at(1).both_db, rival.rows.at(2).both_db)};
+      const double nearest = rival.rows.at(1).both_db, better = std::max(nearest, rival.rows.at(2).both_db);
+      quality.values = {rival.rows.at(0).both_db - better};
+      sampled_wall.values = ratios(rival.meshlab_wall, rival.sampled_wall);
+      sampled_near.values = {rival.rows.at(3).both_db - nearest};
+      sampled_better.values = {rival.rows.at(3).both_db - better};
     }
-    for (const Figure& figure : {wall, cpu, quality}) figures.push_back(figure);
+    for (const Figure& figure : {wall, cpu, quality, sampled_wall, sampled_near, sampled_better}) figures.push_back(figure);
   }
   return figures;
 }
@@ -161,6 +169,7 @@ Json bake_document(const BakeBenchResult& result) {
     Json json{{"title", rival.title}};
     if (rival.skipped.empty()) {
       json["ours"] = {{"wall", median(rival.our_wall)}, {"cpu", median(rival.our_cpu)}};
+      json["sampled"] = {{"wall", median(rival.sampled_wall)}, {"cpu", median(rival.sampled_cpu)}};
       json["meshlab"] = {{"wall", median(rival.meshlab_wall)}, {"cpu", median(rival.meshlab_cpu)}};
       json["rows"] = rows_json(rival.rows);
     } else {

@@ -79,15 +79,19 @@ BakeRivalResult measure_bake_rival(const BakeScan& scan, const std::string& prog
   io::write_file(path("bake.mlx"), script(bounding_box(*scan.mesh).diagonal()));
   try {
     for (int round = 0; round < rounds; ++round) {
-      const Seconds ours = timed({"timeout", "300"},
-                                 {program, "bake", path("high.ply"), "--faces", fmt::to_string(kBakedFaces), "--size",
-                                  fmt::format("{0}x{0}", kMap), "-o", path("ours.obj")},
-                                 scratch / "errors");
+      const auto baked = [&](const char* fill, const char* output) {
+        return timed({"timeout", "300"},
+                     {program, "bake", path("high.ply"), "--faces", fmt::to_string(kBakedFaces), "--size", fmt::format("{0}x{0}", kMap),
+                      "--fill", fill, "-o", path(output)},
+                     scratch / "errors");
+      };
+      const Seconds ours = baked("iterative", "ours.obj"), sampled = baked("sampled", "sampled.obj");
       const Seconds theirs = timed(
           {"env", "QT_QPA_PLATFORM=offscreen", "timeout", "300", "xvfb-run", "-a"},
           {"meshlabserver", "-i", path("high.ply"), "-i", path("low.ply"), "-s", path("bake.mlx"), "-o", path("baked.obj"), "-m", "wt"},
           scratch / "errors");
       result.our_wall.push_back(ours.wall), result.our_cpu.push_back(ours.cpu);
+      result.sampled_wall.push_back(sampled.wall), result.sampled_cpu.push_back(sampled.cpu);
       result.meshlab_wall.push_back(theirs.wall), result.meshlab_cpu.push_back(theirs.cpu);
     }
     const DenseViews dense(*scan.mesh);
@@ -97,6 +101,8 @@ BakeRivalResult measure_bake_rival(const BakeScan& scan, const std::string& prog
     const Mesh theirs = io::read_mesh(path("baked.obj")).mesh;
     for (const Filter filter : {Filter::nearest, Filter::linear})
       result.rows.push_back(dense.compare(fmt::format("MeshLab, {}", to_string(filter)), theirs, texture("baked.png"), filter));
+    result.rows.push_back(
+        dense.compare("etalon bake --fill sampled, nearest", io::read_mesh(path("sampled.obj")).mesh, texture("sampled_texture.png")));
   } catch (const UnavailableError& error) {
     result.skipped = error.what();
   }

@@ -71,6 +71,12 @@ TEST_CASE("bake: a model with its texture in each format, the document, the same
   }
   const json exact = run_bake(folder, {"knot.ply", "--faces", "400", "--size", "128x120", "--fill", "exact", "-o", "exact.ply"}, 0);
   CHECK(exact["iterations"] == 0);
+  const json sampled = run_bake(folder, {"knot.ply", "--faces", "400", "--size", "128x120", "--fill", "sampled", "-o", "sampled.ply"}, 0);
+  CHECK(sampled["fill"] == "sampled");
+  CHECK(sampled["iterations"] == 0);
+  CHECK(sampled["seam_residual_max"] == 0);
+  CHECK(sampled["mesh_sha256"] == exact["mesh_sha256"]);
+  CHECK(sampled["texture_sha256"] != exact["texture_sha256"]);
   const CommandResult info = run_etalon({"info", "exact.ply", "--json", "-"}, {.folder = folder.path()});
   CHECK(json::parse(info.out)["materials"][0]["texture"]["width"] == 128);
 
