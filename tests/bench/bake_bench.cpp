@@ -34,7 +34,7 @@ bake::BakeResult baked(const Mesh& scan, int map) {
 
 std::uint64_t written_bytes(const std::filesystem::path& path, const Mesh& mesh, const std::shared_ptr<const Image>& texture) {
   std::vector<io::Material> materials;
-  if (texture) materials.push_back({.name = "baked", .texture_path = {}, .texture = *texture, .nearest_texel = true});
+  if (texture) materials.push_back({.name = "baked", .texture_path = {}, .texture = *texture, .lookup = io::TextureLookup::nearest});
   io::write_mesh(path, mesh, materials);
   std::uint64_t bytes = 0;
   for (const auto& file : io::mesh_output_files(path, materials)) bytes += std::filesystem::file_size(file);
