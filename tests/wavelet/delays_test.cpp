@@ -50,7 +50,6 @@ std::uint64_t squared_error_left(const Image& a, const Image& b, int columns) {
 
 TEST_CASE("delays: any delays give a stream that is lossless but for what is never sent") {
   const Image image = landscape_texture(70, 45);
-  Rng rng(8);
   for (const int greatest : {0, 1, 5, 300}) {
     const Delays delays = make_delays(70, 45, 3, [&](const Subband& band, int x, int y) {
       // A pure function of the place, since the order of calls is open.
