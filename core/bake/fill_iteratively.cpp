@@ -70,9 +70,7 @@ class IterativeFill {
     std::vector<GridPoint> centers;
     for_each_texel(size, [&](int i, int j) { centers.push_back(plane.center(i, j)); });
     bool changed = false;
-    // Whether `feature` is nearer to t than what t has.
     const auto try_feature = [&](std::uint32_t t, std::uint32_t feature) {
-      if (feature == kNoGroup || feature == t) return;
       const GridPoint &from = centers[feature - first], &to = centers[t - first];
       const Nearest offset = at(feature);
       if (!is_nearer(offset, from, to, at(t))) return;
@@ -80,19 +78,30 @@ class IterativeFill {
       fill_.feature[t] = feature;
       changed = true;
     };
-    const auto texel = [&](int i, int j) { return nodes_.texel(f, size, i, j); };
-    const auto try_neighbor = [&](int i, int j, int di, int dj) {
-      const int p = i + di, q = j + dj;
-      if (p >= 0 && q >= 0 && p + q < size) try_feature(texel(i, j), fill_.feature[texel(p, q)]);
+    for (std::uint32_t t = first; t < first + centers.size(); ++t)  // a feature may have come nearer
+      if (fill_.feature[t] != kNoGroup && fill_.feature[t] != t) try_feature(t, fill_.feature[t]);
+    const auto try_neighbor = [&](std::uint32_t t, std::uint32_t neighbor) {
+      const std::uint32_t feature = fill_.feature[neighbor];
+      if (feature == kNoGroup || feature == t) return;
+      // What t has is from there already, and a feature that is still its own has not come nearer in this transform.
+      if (feature == fill_.feature[t] && fill_.feature[feature] == feature) return;
+      try_feature(t, feature);
     };
-    for (std::uint32_t t = first; t < first + centers.size(); ++t) try_feature(t, fill_.feature[t]);  // a feature may have come nearer
-    for (const int dj : {-1, 1})
+    for (const bool down : {true, false})
       for (int n = 0; n < size; ++n) {
-        const int j = dj < 0 ? n : size - 1 - n;
-        for (int i = 0; i + j < size; ++i)
-          for (const int di : {-1, 0, 1}) try_neighbor(i, j, di, dj);
-        for (int i = 0; i + j < size; ++i) try_neighbor(i, j, -1, 0);
-        for (int i = size - 1 - j; i >= 0; --i) try_neighbor(i, j, 1, 0);
+        const int j = down ? n : size - 1 - n;
+        const auto last = static_cast<std::uint32_t>(size - 1 - j);
+        const std::uint32_t row = nodes_.texel(f, size, 0, j);
+        if (down ? j > 0 : last > 0) {
+          const std::uint32_t other = nodes_.texel(f, size, 0, down ? j - 1 : j + 1), other_last = down ? last + 1 : last - 1;
+          for (std::uint32_t i = 0; i <= last; ++i) {
+            if (i > 0) try_neighbor(row + i, other + i - 1);
+            if (i <= other_last) try_neighbor(row + i, other + i);
+            if (i + 1 <= other_last) try_neighbor(row + i, other + i + 1);
+          }
+        }
+        for (std::uint32_t i = 1; i <= last; ++i) try_neighbor(row + i, row + i - 1);
+        for (std::uint32_t i = last; i > 0; --i) try_neighbor(row + i - 1, row + i);
       }
     return changed;
   }

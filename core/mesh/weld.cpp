@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <bit>
-#include <numeric>
+#include <cstdint>
 
 #include "core/base/error.h"
 
@@ -20,23 +20,33 @@ struct Classes {
   std::vector<std::uint32_t> first;
 };
 
+// The finalizer of MurmurHash3 over all words: one that differs in one bit only goes elsewhere.
+template <std::size_t N>
+std::uint64_t hash_of(const std::array<std::uint32_t, N>& key) {
+  std::uint64_t h = 0;
+  for (const std::uint32_t word : key) {
+    h = (h ^ word) * 0xff51afd7ed558ccdu;
+    h ^= h >> 33;
+  }
+  return h * 0xc4ceb9fe1a85ec53u;
+}
+
+// Open addressing in a table at most half full. The hash decides where is looked, never the order: classes are numbered as they appear.
 template <class Key>
 Classes classes_of_equal(const std::vector<Key>& keys) {
-  std::vector<std::uint32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
-  std::vector<std::uint32_t> leader(keys.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    leader[order[i]] = i > 0 && keys[order[i]] == keys[order[i - 1]] ? leader[order[i - 1]] : order[i];
+  constexpr std::uint32_t kEmpty = UINT32_MAX;
+  const int bits = std::bit_width(2 * keys.size());
+  std::vector<std::uint32_t> table(std::size_t{1} << bits, kEmpty);
   Classes result;
-  result.class_of.resize(keys.size());
+  result.class_of.reserve(keys.size());
   for (std::uint32_t i = 0; i < keys.size(); ++i) {
-    if (leader[i] == i) {
-      result.class_of[i] = static_cast<std::uint32_t>(result.first.size());
+    std::size_t slot = bits == 0 ? 0 : hash_of(keys[i]) >> (64 - bits);
+    while (table[slot] != kEmpty && keys[result.first[table[slot]]] != keys[i]) slot = (slot + 1) & (table.size() - 1);
+    if (table[slot] == kEmpty) {
+      table[slot] = static_cast<std::uint32_t>(result.first.size());
       result.first.push_back(i);
-    } else {
-      result.class_of[i] = result.class_of[leader[i]];
     }
+    result.class_of.push_back(table[slot]);
   }
   return result;
 }
