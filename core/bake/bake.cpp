@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "core/bake/seams.h"
 #include "core/bake/vertex_landings.h"
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/mesh/weld.h"
 
 namespace etalon::bake {
@@ -74,6 +77,30 @@ simplify::SimplifyResult decimated(const Mesh& dense, const BakeOptions& options
   return result;
 }
 
+// What --fill sampled asks for colours; made beside the decimation, which keeps one thread busy.
+struct Decimation {
+  simplify::SimplifyResult simplified;
+  std::optional<TriangleTree> tree;  // of the scan
+};
+
+Decimation decimated_beside_tree(const Mesh& dense, const BakeOptions& options) {
+  Decimation result;
+  std::exception_ptr unfit;
+  parallel_for(options.fill == FillKind::sampled ? 2 : 1, [&](std::size_t part) {
+    if (part == 0) {
+      result.simplified = decimated(dense, options);
+    } else {
+      try {
+        result.tree.emplace(dense);
+      } catch (...) {
+        unfit = std::current_exception();  // what is wrong with the scan the decimation says first, whoever is faster
+      }
+    }
+  });
+  if (unfit) std::rethrow_exception(unfit);
+  return result;
+}
+
 TexelCounts counts_of(const Atlas& atlas, const TexelColors& colors) {
   TexelCounts counts{.atlas = static_cast<std::uint64_t>(atlas.width) * static_cast<std::uint64_t>(atlas.height),
                      .inside = colors.hits.size(),
@@ -87,11 +114,11 @@ TexelCounts counts_of(const Atlas& atlas, const TexelColors& colors) {
 }
 
 // Every texel's colour, and into the result how the fill went.
-std::vector<Rgb8> completed_colors(const Mesh& dense, const TexelNodes& nodes, const TexelColors& colors, FillKind kind,
-                                   BakeResult& result) {
+std::vector<Rgb8> completed_colors(const Mesh& dense, const std::optional<TriangleTree>& tree, const TexelNodes& nodes,
+                                   const TexelColors& colors, FillKind kind, BakeResult& result) {
   const Mesh& mesh = result.simplified.mesh;
   if (kind == FillKind::sampled) {
-    ScanColors sampled = sample_scan(dense, mesh, result.atlas, nodes);
+    ScanColors sampled = sample_scan(dense, tree.value(), mesh, result.atlas, nodes);
     result.fill_distance_max = sampled.distance_max;
     return std::move(sampled.color);
   }
@@ -110,7 +137,8 @@ BakeResult bake_scan(const Mesh& scan, const BakeOptions& options) {
   require_input(scan, options);
   const Mesh dense = bare_scan(scan);
   BakeResult result;
-  result.simplified = decimated(dense, options);
+  Decimation decimation = decimated_beside_tree(dense, options);
+  result.simplified = std::move(decimation.simplified);
   const Mesh& mesh = result.simplified.mesh;
 
   result.spacing = mean_edge_length(dense);
@@ -120,7 +148,7 @@ BakeResult bake_scan(const Mesh& scan, const BakeOptions& options) {
   const TexelNodes nodes(mesh, atlas);
   const TexelColors colors = average_colors(atlas, nodes, dense.colors, result.simplified.landings);
   result.texels = counts_of(atlas, colors);
-  result.texture = painted(atlas, completed_colors(dense, nodes, colors, options.fill, result));
+  result.texture = painted(atlas, completed_colors(dense, decimation.tree, nodes, colors, options.fill, result));
   paint_borders(atlas, result.texture);
   result.share = options.corners == Corners::exact ? 0 : drawn_in_share(atlas);
   result.mesh = textured(mesh, atlas, result.share);

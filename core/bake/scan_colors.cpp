@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include "core/base/error.h"
 #include "core/base/parallel.h"
-#include "core/mesh/triangle_tree.h"
 
 namespace etalon::bake {
 namespace {
@@ -70,7 +66,7 @@ Sum color_at(const Mesh& scan, const SurfacePoint& at) {
 // Samples one face after another; the memory is kept.
 class FaceSampler {
  public:
-  FaceSampler(const Mesh& scan, const TriangleTree& tree, int side) : scan_(scan), tree_(tree), side_(side) {}
+  FaceSampler(const Mesh& scan, const TriangleTree& tree) : scan_(scan), tree_(tree) {}
 
   /// Into sums, by texel of the face. Returns the largest squared distance of a centre.
   double sample(const FacePlane& plane, int size, Sum* sums) {
@@ -81,6 +77,7 @@ class FaceSampler {
     double farthest2 = 0;
     for (const SurfacePoint& center : found_) {
       farthest2 = std::max(farthest2, center.distance2);
+      sums[distances_.size()].add(color_at(scan_, center));
       distances_.push_back(std::sqrt(center.distance2));
     }
     collect_places(plane, size);
@@ -94,18 +91,18 @@ class FaceSampler {
     found_.resize(points_.size());
     tree_.nearest(points_, found_);
   }
+  // The four around each centre. Of one that lies beyond the hypotenuse the triangle shows nothing.
   void collect_places(const FacePlane& plane, int size) {
     points_.clear(), texels_.clear();
-    const int all = 2 * side_ * size;
+    const int all = 6 * size;  // sixths of a texel along a leg
     std::uint32_t texel = 0;
     for_each_texel(size, [&](int i, int j) {
-      const double h = distances_[texel];
-      for (int y = 0; y < side_; ++y)
-        for (int x = 0; x < side_; ++x) {
-          const int right = 2 * (side_ * i + x) + 1, up = 2 * (side_ * j + y) + 1;
+      const double spread = distances_[texel] * 2 / 3;
+      for (const int y : {-1, 1})
+        for (const int x : {-1, 1}) {
+          const int right = 6 * i + 3 + 2 * x, up = 6 * j + 3 + 2 * y;
           if (right + up > all) continue;
-          const double from_center_x = (2 * x + 1 - side_) * h / side_, from_center_y = (2 * y + 1 - side_) * h / side_;
-          points_.push_back(plane.point(static_cast<double>(right) / all, static_cast<double>(up) / all, from_center_x, from_center_y));
+          points_.push_back(plane.point(static_cast<double>(right) / all, static_cast<double>(up) / all, x * spread, y * spread));
           texels_.push_back(texel);
         }
       ++texel;
@@ -114,7 +111,6 @@ class FaceSampler {
 
   const Mesh& scan_;
   const TriangleTree& tree_;
-  int side_;
   std::vector<Vec3d> points_;
   std::vector<SurfacePoint> found_;
   std::vector<double> distances_;      // by texel
@@ -123,13 +119,11 @@ class FaceSampler {
 
 }  // namespace
 
-ScanColors sample_scan(const Mesh& scan, const Mesh& mesh, const Atlas& atlas, const TexelNodes& nodes, int places_a_side) {
-  ETALON_CHECK(places_a_side >= 1 && places_a_side <= 16, fmt::format("{} places a side", places_a_side));
-  const TriangleTree tree(scan);
+ScanColors sample_scan(const Mesh& scan, const TriangleTree& tree, const Mesh& mesh, const Atlas& atlas, const TexelNodes& nodes) {
   std::vector<Sum> sums(nodes.texel_count());
   std::vector<double> farthest2(mesh.face_count());
   parallel_for_blocks(mesh.face_count(), kFacesAtOnce, [&](std::size_t begin, std::size_t end) {
-    FaceSampler sampler(scan, tree, places_a_side);
+    FaceSampler sampler(scan, tree);
     for (std::size_t f = begin; f < end; ++f) {
       const auto face = static_cast<std::uint32_t>(f);
       const Tile& tile = atlas.tiles[f];

@@ -39,7 +39,7 @@ struct Target {
   TexelNodes nodes;
   explicit Target(float height)
       : mesh(mesh_of({{0, 0, height}, {kCells, 0, height}, {0, kCells, height}}, {{0, 1, 2}})), nodes(mesh, atlas) {}
-  [[nodiscard]] ScanColors sample(const Mesh& scan, int side) const { return sample_scan(scan, mesh, atlas, nodes, side); }
+  [[nodiscard]] ScanColors sample(const Mesh& scan) const { return sample_scan(scan, TriangleTree(scan), mesh, atlas, nodes); }
 };
 
 }  // namespace
@@ -54,49 +54,46 @@ TEST_CASE("on a flat scan each texel has the mean of the linear colours at its p
   const Target target(0);
   const int size = target.atlas.tiles[0].size;
   REQUIRE(size == 16);
-  for (const int side : {1, 2, 3, 4}) {
-    const ScanColors sampled = target.sample(scan, side);
-    CHECK(sampled.distance_max < 0x1p-40);
-    std::uint32_t t = 0;
-    std::size_t checked = 0;
-    for_each_texel(size, [&](int i, int j) {
-      std::array<int, 3> sums{};
-      int places = 0;
-      bool clear = true;
-      for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-          const int right = 2 * (side * i + x) + 1, up = 2 * (side * j + y) + 1;
-          if (right + up > 2 * side * size) continue;
-          ++places;
-          const auto color = linear(right / (2.0 * side * size), up / (2.0 * side * size));
-          for (std::size_t c = 0; c < 3; ++c) {
-            const double level = 255 * color[c] + 0.5;
-            // Weights and sums are off by a few times 2^-53; no level but one on a half is so near to the next byte, since levels are whole
-            // multiples of 1/(8 · side · size).
-            clear = clear && std::abs(level - std::round(level)) > 0x1p-30;
-            sums[c] += static_cast<int>(level);
-          }
-        }
-      if (clear) {
-        ++checked;
-        for (std::size_t c = 0; c < 3; ++c) REQUIRE(sampled.color[t][c] == (2 * sums[c] + places) / (2 * places));
+  const ScanColors sampled = target.sample(scan);
+  CHECK(sampled.distance_max < 0x1p-40);
+  std::uint32_t t = 0;
+  std::size_t checked = 0;
+  for_each_texel(size, [&](int i, int j) {
+    std::array<int, 3> sums{};
+    int places = 0;
+    bool clear = true;
+    for (const auto& [x, y] : {std::pair(0, 0), {-2, -2}, {2, -2}, {-2, 2}, {2, 2}}) {
+      const int right = 6 * i + 3 + x, up = 6 * j + 3 + y;
+      if (right + up > 6 * size) continue;
+      ++places;
+      const auto color = linear(right / (6.0 * size), up / (6.0 * size));
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double level = 255 * color[c] + 0.5;
+        // Weights and sums are off by a few times 2^-53; no level but one on a half is so near to the next byte, since levels are whole
+        // multiples of 1/(24 · size).
+        clear = clear && std::abs(level - std::round(level)) > 0x1p-30;
+        sums[c] += static_cast<int>(level);
       }
-      ++t;
-    });
-    CHECK(checked > 100);
-  }
+    }
+    CHECK(places == (i + j + 1 < size ? 5 : 4));
+    if (clear) {
+      ++checked;
+      for (std::size_t c = 0; c < 3; ++c) REQUIRE(sampled.color[t][c] == (2 * sums[c] + places) / (2 * places));
+    }
+    ++t;
+  });
+  CHECK(checked > 100);
 }
 
 TEST_CASE("where the triangle is away from the scan, its places are as far apart as that") {
   const Mesh scan = flat_scan([](float x, float) { return x < 4 ? Vec4f(0, 0, 0, 1) : Vec4f(1, 1, 1, 1); });
-  // Black up to x = 3, white from 4 on. Texel (4, 2), half a unit wide, is centred at x = 2.25; its 16 places are 0.75 of h off at most.
+  // Black up to x = 3, white from 4 on. Texel (4, 2), half a unit wide, is centred at x = 2.25.
   const Target near(0), above(2);
   const std::uint32_t texel = near.nodes.texel(0, 16, 4, 2);
-  CHECK(near.sample(scan, 4).color[texel] == Rgb8{0, 0, 0});
-  CHECK(above.sample(scan, 1).color[texel] == Rgb8{0, 0, 0});
-  // Columns at 2.25 + {-0.1875 - 1.5, -0.0625 - 0.5, 0.0625 + 0.5, 0.1875 + 1.5}: 3.9375 is 0.9375 of the way to white, 239.06; a quarter.
-  CHECK(above.sample(scan, 4).color[texel] == Rgb8{60, 60, 60});
-  CHECK(above.sample(scan, 4).distance_max == doctest::Approx(2).epsilon(1e-12));
+  CHECK(near.sample(scan).color[texel] == Rgb8{0, 0, 0});
+  // Two of five at 2.25 + 1/6 + 4/3 = 3.75: three quarters of the way to white, 191.25; two fifths of 191.
+  CHECK(above.sample(scan).color[texel] == Rgb8{76, 76, 76});
+  CHECK(above.sample(scan).distance_max == doctest::Approx(2).epsilon(1e-12));
 }
 
 TEST_CASE("one colour a node, of all its places; colours beyond [0, 1] are clamped; the same for every thread count") {
@@ -106,7 +103,7 @@ TEST_CASE("one colour a node, of all its places; colours beyond [0, 1] are clamp
     scan.positions[v].x /= 3, scan.positions[v].y /= 3;
     scan.colors.emplace_back(static_cast<float>(v % 7) / 6, 2.0f, -1.0f, 1);
   }
-  const ScanColors first = sample_scan(scan, c.mesh, c.atlas, c.nodes);
+  const ScanColors first = sample_scan(scan, TriangleTree(scan), c.mesh, c.atlas, c.nodes);
   CHECK(first.distance_max > 0);
   bool different = false;
   for (std::uint32_t t = 0; t < c.nodes.texel_count(); ++t) {
@@ -118,7 +115,7 @@ TEST_CASE("one colour a node, of all its places; colours beyond [0, 1] are clamp
   CHECK(different);
   for (const int threads : {1, 2, 7}) {
     set_thread_count(threads);
-    const ScanColors again = sample_scan(scan, c.mesh, c.atlas, c.nodes);
+    const ScanColors again = sample_scan(scan, TriangleTree(scan), c.mesh, c.atlas, c.nodes);
     CHECK(again.color == first.color);
     CHECK(again.distance_max == first.distance_max);
   }

@@ -79,13 +79,14 @@ BakeRivalResult measure_bake_rival(const BakeScan& scan, const std::string& prog
   io::write_file(path("bake.mlx"), script(bounding_box(*scan.mesh).diagonal()));
   try {
     for (int round = 0; round < rounds; ++round) {
-      const auto baked = [&](const char* fill, const char* output) {
-        return timed({"timeout", "300"},
-                     {program, "bake", path("high.ply"), "--faces", fmt::to_string(kBakedFaces), "--size", fmt::format("{0}x{0}", kMap),
-                      "--fill", fill, "-o", path(output)},
-                     scratch / "errors");
+      const auto baked = [&](std::vector<std::string> options, const char* output) {
+        std::vector<std::string> command{
+            program, "bake",      path("high.ply"), "--faces", fmt::to_string(kBakedFaces), "--size", fmt::format("{0}x{0}", kMap),
+            "-o",    path(output)};
+        command.insert(command.end(), options.begin(), options.end());
+        return timed({"timeout", "300"}, command, scratch / "errors");
       };
-      const Seconds ours = baked("iterative", "ours.obj"), sampled = baked("sampled", "sampled.obj");
+      const Seconds ours = baked({}, "ours.obj"), sampled = baked({"--fill", "sampled", "--gutter", "0"}, "sampled.obj");
       const Seconds theirs = timed(
           {"env", "QT_QPA_PLATFORM=offscreen", "timeout", "300", "xvfb-run", "-a"},
           {"meshlabserver", "-i", path("high.ply"), "-i", path("low.ply"), "-s", path("bake.mlx"), "-o", path("baked.obj"), "-m", "wt"},
@@ -101,8 +102,10 @@ BakeRivalResult measure_bake_rival(const BakeScan& scan, const std::string& prog
     const Mesh theirs = io::read_mesh(path("baked.obj")).mesh;
     for (const Filter filter : {Filter::nearest, Filter::linear})
       result.rows.push_back(dense.compare(fmt::format("MeshLab, {}", to_string(filter)), theirs, texture("baked.png"), filter));
-    result.rows.push_back(
-        dense.compare("etalon bake --fill sampled, nearest", io::read_mesh(path("sampled.obj")).mesh, texture("sampled_texture.png")));
+    const Mesh sampled = io::read_mesh(path("sampled.obj")).mesh;
+    for (const Filter filter : {Filter::nearest, Filter::linear})
+      result.rows.push_back(dense.compare(fmt::format("etalon bake --fill sampled --gutter 0, {}", to_string(filter)), sampled,
+                                          texture("sampled_texture.png"), filter));
   } catch (const UnavailableError& error) {
     result.skipped = error.what();
   }
