@@ -55,19 +55,34 @@ full_preset() {
   ETALON_FULL='' check_tests "preset $preset" "$log.tests" ctest --preset "$preset"
 }
 
-# A million mutants of .epm files and of terrain streams under the sanitizers, in the build of that preset.
+# A million mutants of .epm files and of terrain, texture and joint streams under the sanitizers, in the build of that preset.
 full_mutants() {
   local folder program
-  for folder in progressive terrain; do
+  for folder in progressive terrain wavelet joint; do
     program="$root/build-asan-ubsan/tests/$folder/etalon_${folder}_tests"
     if [ ! -x "$program" ]; then
       count 0 0 1
       printf '[etalon] skipped: mutants of tests/%s: the preset asan-ubsan was not built\n' "$folder"
       continue
     fi
-    full_program env ETALON_FULL=1 UBSAN_OPTIONS=halt_on_error=1 "$program" --test-case='mutants are refused*'
+    full_program env ETALON_FULL=1 UBSAN_OPTIONS=halt_on_error=1 "$program" --test-case='*mutants are refused*,changed files*'
   done
 }
+
+# Mutants of the real files through `etalon info`.
+full_info_mutants() {
+  if [ ! -d "${ETALON_DATA:-}" ]; then
+    count 0 0 1
+    printf '[etalon] skipped: mutants of real files: no $ETALON_DATA\n'
+    return 0
+  fi
+  local files
+  mapfile -t files < <(find "$ETALON_DATA/" -type f -size +5k | LC_ALL=C sort)
+  full_program "$root/build/tests/fuzz/etalon_info_mutants" --program "$root/build/cli/etalon" --count 10000 --jobs "$(nproc)" --keep "$root/build/findings" "${files[@]}"
+}
+
+# Ten minutes of libFuzzer each; targets that passed are in the log, so that it goes on within the step too.
+full_fuzz() { ETALON_FUZZ_LOG="$root/build/full-fuzz-$state_key.log" check_fuzz 600; }
 
 # The judge keeps a log of finished blocks, so that it goes on within a step too.
 judge="$root/build/tests/validation/reference/etalon_judge"
@@ -77,5 +92,7 @@ crosscheck="$root/build/tests/validation/etalon_crosscheck"
 full_step no-gpu full_preset no-gpu g++
 full_step asan-ubsan full_preset asan-ubsan clang++
 full_step mutants full_mutants
+full_step info-mutants full_info_mutants
+[ -d "$sanitized/tests/fuzz" ] && full_step fuzz full_fuzz
 full_step tsan full_preset tsan clang++
 full_step tidy full_preset tidy clang-tidy

@@ -47,17 +47,19 @@ Vec3d vector3(const Json& document, const std::string& file, const char* key) {
 }
 
 int side(const Json& document, const std::string& file, const char* key) {
-  const Json item = document.value(key, Json());
-  const bool fits = item.is_number_integer() && item >= 1 && item <= kMaxFrameSize;
-  if (!fits) refuse(file, fmt::format("'{}': expected a whole number from 1 to {}", key, kMaxFrameSize));
-  return item.get<int>();
+  const bool is_integer = document.contains(key) && document[key].is_number_integer();
+  if (!is_integer || document[key] < 1 || document[key] > kMaxFrameSize)
+    refuse(file, fmt::format("'{}': expected a whole number from 1 to {}", key, kMaxFrameSize));
+  return document[key].get<int>();
 }
 
 ViewChoice read_view(const std::string& file) {
   const io::FileBytes bytes = io::read_file(file);
   const Json document = Json::parse(bytes.text().begin(), bytes.text().end(), nullptr, false);
   if (document.is_discarded() || !document.is_object()) refuse(file, "expected a JSON object (etalon/view/1)");
-  if (document.value("schema", Json()) != "etalon/view/1") refuse(file, "'schema': expected \"etalon/view/1\"");
+  // Not document.value(): it would copy whatever stands there, by recursion.
+  if (!document.contains("schema") || !document["schema"].is_string() || document["schema"] != "etalon/view/1")
+    refuse(file, "'schema': expected \"etalon/view/1\"");
   ViewChoice view;
   view.named.name = std::filesystem::path(file).filename().string();
   Camera& camera = view.named.camera.emplace();

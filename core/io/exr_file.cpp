@@ -2,6 +2,7 @@
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
+#include <ImfCompression.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
@@ -128,6 +129,12 @@ ExrContent decode_checked(std::span<const std::byte> bytes, const std::string& n
   const std::size_t width = static_cast<std::size_t>(window.max.x - window.min.x) + 1;
   const std::size_t height = static_cast<std::size_t>(window.max.y - window.min.y) + 1;
   if (texel_bytes == 0) fail_file(name, "expected at least one channel, got none");
+  // DWA keeps one number of 64 where a block is flat, before it deflates.
+  const Imf::Compression codec = file.header().compression();
+  const std::size_t ratio = codec == Imf::DWAA_COMPRESSION || codec == Imf::DWAB_COMPRESSION ? 64 * 1032 : 1032;
+  if (texel_bytes * width * height / ratio > bytes.size())
+    fail_file(name, fmt::format("expected at least {} bytes for its size and channels, got {}", texel_bytes * width * height / ratio,
+                                bytes.size()));
   // Scanline blocks hold at most 256 rows (DWAB); every block has an 8-byte offset in the table and an 8-byte head.
   if ((height + 255) / 256 * 16 > bytes.size()) fail_file(name, fmt::format("{} rows do not fit into {} bytes", height, bytes.size()));
   for (auto c = channels.begin(); c != channels.end(); ++c) {

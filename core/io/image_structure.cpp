@@ -63,6 +63,22 @@ std::uint32_t crc32(std::span<const std::byte> bytes) {
   return ~crc;
 }
 
+constexpr int kMaxJpegScans = 500;
+
+/// SOF0 to SOF15, which hold the size; not the tables DHT, JPG and DAC among them.
+bool is_frame_header(std::uint8_t marker) { return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC; }
+
+/// Of one component at least, each block of 8 × 8 has a code of at least one bit; arithmetic coding (from SOF9) may need a sixty-fourth of it.
+void check_jpeg_size(std::span<const std::byte> frame_header, std::uint8_t marker, std::size_t file_bytes, const std::string& name) {
+  if (frame_header.size() < 5) fail_file(name, "frame header: expected at least 5 bytes");
+  const auto be16 = [&](std::size_t i) {
+    return std::to_integer<std::size_t>(frame_header[i]) << 8 | std::to_integer<std::size_t>(frame_header[i + 1]);
+  };
+  const std::size_t least = ((be16(1) + 7) / 8) * ((be16(3) + 7) / 8) / (marker < 0xC9 ? 8 : 512);
+  if (least > file_bytes)
+    fail_file(name, fmt::format("expected at least {} bytes for its size of {}x{}, got {}", least, be16(3), be16(1), file_bytes));
+}
+
 }  // namespace
 
 void check_png_structure(std::span<const std::byte> bytes, const std::string& name) {
@@ -100,6 +116,7 @@ void check_png_structure(std::span<const std::byte> bytes, const std::string& na
 void check_jpeg_structure(std::span<const std::byte> bytes, const std::string& name) {
   Walk walk(bytes, name);
   walk.take(2, "start of image");
+  int scan_count = 0;
   while (true) {
     if (walk.take_u8("marker") != 0xFF) walk.fail("expected a marker (0xFF), got data");
     std::uint8_t marker = walk.take_u8("marker");
@@ -109,8 +126,11 @@ void check_jpeg_structure(std::span<const std::byte> bytes, const std::string& n
     if (marker == 0x01 || (marker >= 0xD0 && marker <= 0xD7)) continue;
     const std::uint32_t length = walk.take_be(2, "segment length");
     if (length < 2) walk.fail(fmt::format("segment length: expected at least 2, got {}", length));
-    walk.take(length - 2, "segment");
+    const std::span<const std::byte> segment = walk.take(length - 2, "segment");
+    if (is_frame_header(marker)) check_jpeg_size(segment, marker, bytes.size(), name);
     if (marker != 0xDA) continue;
+    // Each scan may go through all of the image; ten is what progressive files have.
+    if (++scan_count > kMaxJpegScans) walk.fail(fmt::format("expected at most {} scans", kMaxJpegScans));
     // Entropy-coded data of the scan: up to the next 0xFF that is neither stuffed (FF 00) nor a restart marker.
     while (true) {
       if (walk.take_u8("scan data") != 0xFF) continue;

@@ -1,8 +1,10 @@
 // TIFF 6.0 section 2 and BigTIFF: where everything that the first image needs must lie.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/image/image.h"
@@ -15,8 +17,16 @@ namespace {
 enum : std::uint64_t {
   kImageWidth = 256,
   kImageLength = 257,
+  kBitsPerSample = 258,
+  kCompression = 259,
+  kPhotometric = 262,
   kStripOffsets = 273,
+  kSamplesPerPixel = 277,
+  kRowsPerStrip = 278,
   kStripByteCounts = 279,
+  kPlanarConfiguration = 284,
+  kTileWidth = 322,
+  kTileLength = 323,
   kTileOffsets = 324,
   kTileByteCounts = 325
 };
@@ -41,6 +51,8 @@ class TiffWalk {
     number(entries + entry_count * entry_bytes, is_big_tiff_ ? 8 : 4);  // the next directory's offset
     check_blocks(strip_offsets_, strip_bytes_);
     check_blocks(tile_offsets_, tile_bytes_);
+    check_size();
+    if (tile_offsets_.empty()) check_strips();
   }
 
  private:
@@ -70,7 +82,20 @@ class TiffWalk {
     if (count * size > field_bytes) values_at = number(values_at, field_bytes);
     if (values_at > bytes_.size() || bytes_.size() - values_at < count * size)
       fail_at_byte(name_, static_cast<std::size_t>(at), fmt::format("the file ends early: tag {} points at byte {}", tag, values_at));
-    if (tag == kImageWidth || tag == kImageLength) check_side(tag, count == 0 ? 0 : number(values_at, size), at);
+    const std::uint64_t value = count == 0 ? 0 : number(values_at, size);
+    switch (tag) {
+      case kImageWidth: check_side("image width", width_ = value, at); break;
+      case kImageLength: check_side("image height", height_ = value, at); break;
+      case kTileWidth: check_side("tile width", tile_width_ = value, at); break;
+      case kTileLength: check_side("tile height", tile_height_ = value, at); break;
+      case kBitsPerSample: bits_per_sample_ = value; break;
+      case kSamplesPerPixel: samples_per_pixel_ = value; break;
+      case kCompression: compression_ = value; break;
+      case kPhotometric: photometric_ = value; break;
+      case kRowsPerStrip: rows_per_strip_ = value; break;
+      case kPlanarConfiguration: is_planar_ = value == 2; break;
+      default: break;
+    }
     std::vector<Value>* const list = tag == kStripOffsets      ? &strip_offsets_
                                      : tag == kStripByteCounts ? &strip_bytes_
                                      : tag == kTileOffsets     ? &tile_offsets_
@@ -81,10 +106,49 @@ class TiffWalk {
     for (std::uint64_t i = 0; i < count; ++i) list->push_back({number(values_at + i * size, size), values_at + i * size});
   }
 
-  void check_side(std::uint64_t tag, std::uint64_t side, std::uint64_t at) const {
+  void check_side(const char* what, std::uint64_t side, std::uint64_t at) const {
     if (side < 1 || side > static_cast<std::uint64_t>(kMaxImageSize))
-      fail_at_byte(name_, static_cast<std::size_t>(at),
-                   fmt::format("image {}: expected 1 to {}, got {}", tag == kImageWidth ? "width" : "height", kMaxImageSize, side));
+      fail_at_byte(name_, static_cast<std::size_t>(at), fmt::format("{}: expected 1 to {}, got {}", what, kMaxImageSize, side));
+  }
+
+  /// The most bytes that one byte of the file can become.
+  [[nodiscard]] std::uint64_t best_ratio() const {
+    switch (compression_) {
+      case 1: return 4;         // none; YCbCr of 4 × 4 samples to one of each colour holds 18 of 48
+      case 5: return 2560;      // LZW: 3,838 bytes (TIFF 6.0, section 13: strings of at most 4,096 - 258) by a code of 12 bits
+      case 8:                   // deflate: 258 bytes by two bits
+      case 32946: return 1032;  // its older number
+      case 32773: return 64;    // PackBits: 128 by two
+      default: return 32768;    // zstd: blocks of 128 KiB by four bytes; CCITT: a row of at most 32,768 by one bit
+    }
+  }
+
+  /// A small file cannot hold a large image, nor a large tile: both are refused before memory is taken for them.
+  void check_size() const {
+    const std::uint64_t texel_bits = std::min<std::uint64_t>(bits_per_sample_, 64) * std::min<std::uint64_t>(samples_per_pixel_, 65535);
+    for (const auto& [what, texels] : {std::pair("image", width_ * height_), std::pair("tile", tile_width_ * tile_height_)}) {
+      const std::uint64_t least = texels * texel_bits / 8 / best_ratio();
+      if (least > bytes_.size())
+        fail_file(name_, fmt::format("expected at least {} bytes for the size of its {}, got {}", least, what, bytes_.size()));
+    }
+  }
+
+  /// Decoders leave the texels of a strip that is missing or short as they are.
+  void check_strips() const {
+    const std::uint64_t rows = std::clamp<std::uint64_t>(rows_per_strip_, 1, std::max<std::uint64_t>(height_, 1));
+    const std::uint64_t strips = (height_ + rows - 1) / rows, planes = is_planar_ ? std::min<std::uint64_t>(samples_per_pixel_, 65535) : 1;
+    if (strip_offsets_.size() < strips * planes)
+      fail_file(name_, fmt::format("strips: expected {}, got {}", strips * planes, strip_offsets_.size()));
+    constexpr std::uint64_t kNone = 1, kYCbCr = 6;
+    if (compression_ != kNone || photometric_ == kYCbCr) return;
+    const std::uint64_t texel_bits =
+        std::min<std::uint64_t>(bits_per_sample_, 64) * (is_planar_ ? 1 : std::min<std::uint64_t>(samples_per_pixel_, 65535));
+    for (std::size_t i = 0; i < std::min<std::size_t>(strip_bytes_.size(), strips * planes); ++i) {
+      const std::uint64_t least = std::min(rows, height_ - i % strips * rows) * ((width_ * texel_bits + 7) / 8);
+      if (strip_bytes_[i].number < least)
+        fail_at_byte(name_, static_cast<std::size_t>(strip_bytes_[i].at),
+                     fmt::format("strip {}: expected {} bytes, got {}", i, least, strip_bytes_[i].number));
+    }
   }
 
   void check_blocks(const std::vector<Value>& offsets, const std::vector<Value>& sizes) const {
@@ -103,6 +167,10 @@ class TiffWalk {
   const std::string& name_;
   bool big_endian_;
   bool is_big_tiff_;
+  std::uint64_t width_ = 0, height_ = 0, tile_width_ = 0, tile_height_ = 0;
+  // With the defaults of TIFF 6.0, section 8.
+  std::uint64_t bits_per_sample_ = 1, samples_per_pixel_ = 1, compression_ = 1, photometric_ = 0, rows_per_strip_ = ~std::uint64_t{0};
+  bool is_planar_ = false;
   std::vector<Value> strip_offsets_, strip_bytes_, tile_offsets_, tile_bytes_;
 };
 

@@ -1,28 +1,15 @@
 // libFuzzer on FILE.draws: any bytes are refused by an InputError in one line that names the file, or are a list that is valid.
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <span>
-#include <string>
-
-#include "core/base/error.h"
 #include "core/io/draws_file.h"
+#include "tests/fuzz/fuzz_target.h"
 
-namespace {
-
-etalon::io::DrawsFile decoded(std::span<const std::byte> bytes) {
-  return etalon::io::decode_draws(bytes, "fuzz.draws", "", [](const auto&, const auto&) { return etalon::Image(2, 3, etalon::kRgba8); });
-}
-
-}  // namespace
+using namespace etalon;
+using namespace etalon::test;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try {
-    const etalon::io::DrawsFile file = decoded(std::as_bytes(std::span(data, size)));
+  is_read("fuzz.draws: ", [&] {
+    const auto any_image = [](const auto&, const auto&) { return Image(2, 3, kRgba8); };
+    const io::DrawsFile file = io::decode_draws(bytes_of(data, size), "fuzz.draws", "", any_image);
     validate(file.list, file.frame);
-  } catch (const etalon::InputError& error) {
-    const std::string message = error.what();
-    if (!message.starts_with("fuzz.draws: ") || message.find('\n') != std::string::npos) std::abort();
-  }
+  });
   return 0;
 }

@@ -62,8 +62,10 @@ Waiver waiver_of(const Json& item, const std::string& file, std::size_t n) {
 std::vector<Waiver> read_waivers(const std::string& path) {
   const io::FileBytes bytes = io::read_file(path);
   const Json document = Json::parse(bytes.text().begin(), bytes.text().end(), nullptr, false);
-  if (document.is_discarded() || !document.is_object() || document.value("schema", Json()) != "etalon/waivers/1")
-    refuse(path, "expected a JSON object with the schema 'etalon/waivers/1'");
+  // Not document.value(): it would copy whatever stands there, by recursion.
+  const bool is_ours =
+      document.is_object() && document.contains("schema") && document["schema"].is_string() && document["schema"] == "etalon/waivers/1";
+  if (!is_ours) refuse(path, "expected a JSON object with the schema 'etalon/waivers/1'");
   if (!document.contains("waivers") || !document["waivers"].is_array()) refuse(path, "waivers: expected an array");
   std::vector<Waiver> waivers;
   for (const Json& item : document["waivers"]) waivers.push_back(waiver_of(item, path, waivers.size()));

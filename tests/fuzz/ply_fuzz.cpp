@@ -1,0 +1,11 @@
+// libFuzzer on PLY: ascii, both binaries, triangle strips, range grids.
+#include "core/io/mesh_formats.h"
+#include "tests/fuzz/mesh_target.h"
+
+using namespace etalon;
+using namespace etalon::test;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  is_read("fuzz.ply:", [&] { require_valid(io::read_ply("fuzz.ply", file_bytes(bytes_of(data, size)))); });
+  return 0;
+}
