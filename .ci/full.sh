@@ -78,7 +78,7 @@ full_info_mutants() {
   fi
   local files
   mapfile -t files < <(find "$ETALON_DATA/" -type f -size +5k | LC_ALL=C sort)
-  full_program "$root/build/tests/fuzz/etalon_info_mutants" --program "$root/build/cli/etalon" --count 10000 --jobs "$(nproc)" --keep "$root/build/findings" "${files[@]}"
+  full_program "$root/build/tests/fuzz/etalon_info_mutants" --count 10000 --keep "$root/build/findings" "${files[@]}"
 }
 
 # Ten minutes of libFuzzer each; targets that passed are in the log, so that it goes on within the step too.

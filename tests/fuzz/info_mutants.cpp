@@ -1,5 +1,6 @@
 // Mutants of files through `etalon info`: it ends with exit code 0, 1 or 4 within 10 seconds of processor time and 4 GiB, and says what is wrong in one line.
-//   etalon_info_mutants --program ETALON [--first N] [--count N] [--seed S] [--jobs N] [--seconds S] [--keep FOLDER] FILE|FOLDER…
+//   etalon_info_mutants [--program ETALON] [--first N] [--count N] [--seed S] [--jobs N] [--seconds S] [--keep FOLDER] FILE|FOLDER…
+// Without --program the command's own main() runs in a copy of this process, one at a time, without the quarter of a second of its start.
 // Mutant n of seed S is a function of n, S and the files, so a finding can be made again. Exit code 0, or 2 after a finding; the file is kept.
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <mutex>
@@ -21,6 +23,9 @@
 #include "core/base/error.h"
 #include "tests/fuzz/limited_run.h"
 #include "tests/fuzz/mutate.h"
+
+/// Of cli/main.cpp.
+int etalon_main(int argc, char** argv);
 
 namespace {
 
@@ -83,7 +88,8 @@ Options parsed(const std::vector<std::string>& words) {
     else
       add_files(words[i], options.files);
   }
-  if (options.program.empty() || options.files.empty()) throw InputError("expected --program ETALON and files");
+  if (options.files.empty()) throw InputError("expected files");
+  if (options.program.empty()) options.jobs = 1;
   return options;
 }
 
@@ -108,13 +114,23 @@ std::string complaint(const RunResult& run, const std::string& file) {
   return "";
 }
 
+RunResult run_info(const std::string& program, const fs::path& path, const RunLimits& limits, const fs::path& errors) {
+  std::vector<std::string> command = {program.empty() ? "etalon" : program, "info", "--quiet", path.string()};
+  if (!program.empty()) return run_limited(command, limits, errors);
+  std::vector<char*> arguments;
+  for (std::string& word : command) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  const std::function<int()> body = [&] { return etalon_main(static_cast<int>(command.size()), arguments.data()); };
+  return run_limited(body, limits, errors);
+}
+
 /// Makes mutant n in `folder` under its file's own name, so that the extension stays, and runs the program on it.
 void attempt(const Options& options, std::uint64_t n, const fs::path& folder, Tally& tally) {
   const fs::path& source = options.files[n % options.files.size()];
   Rng rng(options.seed * 0x9E3779B97F4A7C15ull + n);
   const fs::path path = folder / source.filename();
   std::ofstream(path, std::ios::binary) << mutant_of(content_of(source), rng);
-  const RunResult run = run_limited({options.program, "info", "--quiet", path.string()}, options.limits, folder / "errors");
+  const RunResult run = run_info(options.program, path, options.limits, folder / "errors");
   const std::string what = complaint(run, path.string());
   const std::lock_guard lock(tally.mutex);
   ++tally.exits[run.signal != 0 ? 128 + run.signal : run.exit_code];
@@ -134,14 +150,15 @@ int run(const Options& options) {
   fs::create_directories(options.keep);
   Tally tally;
   std::atomic<std::uint64_t> next{0};
+  const auto work = [&](std::uint64_t job) {
+    const fs::path folder = fs::temp_directory_path() / fmt::format("etalon-mutants-{}-{}", getpid(), job);
+    fs::create_directories(folder);
+    for (std::uint64_t n; (n = next++) < options.count;) attempt(options, options.first + n, folder, tally);
+    fs::remove_all(folder);
+  };
   std::vector<std::thread> workers;
-  for (std::uint64_t j = 0; j < options.jobs; ++j)
-    workers.emplace_back([&, j] {
-      const fs::path folder = fs::temp_directory_path() / fmt::format("etalon-mutants-{}-{}", getpid(), j);
-      fs::create_directories(folder);
-      for (std::uint64_t n; (n = next++) < options.count;) attempt(options, options.first + n, folder, tally);
-      fs::remove_all(folder);
-    });
+  for (std::uint64_t job = 1; job < options.jobs; ++job) workers.emplace_back(work, job);
+  work(0);
   for (std::thread& worker : workers) worker.join();
   fmt::print("{} mutants of {} files:", options.count, options.files.size());
   for (const auto& [code, count] : tally.exits) fmt::print(" exit {}: {};", code, count);

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 
@@ -20,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void become(const std::vector<char*>& arguments, const RunLimits& limits, const char* errors_path) {
+void put_under(const RunLimits& limits, const char* errors_path) {
   const int nothing = open("/dev/null", O_RDWR);
   const int errors = open(errors_path, O_WRONLY | O_CREAT | O_TRUNC, 0600);
   if (nothing < 0 || errors < 0 || dup2(nothing, STDIN_FILENO) < 0 || dup2(nothing, STDOUT_FILENO) < 0 || dup2(errors, STDERR_FILENO) < 0)
@@ -28,8 +29,6 @@ using Clock = std::chrono::steady_clock;
   const rlimit no_core{0, 0}, memory{limits.memory_bytes, limits.memory_bytes}, time{limits.seconds, limits.seconds + 1};
   if (setrlimit(RLIMIT_CORE, &no_core) != 0 || setrlimit(RLIMIT_CPU, &time) != 0) _exit(126);
   if (limits.memory_bytes != 0 && setrlimit(RLIMIT_AS, &memory) != 0) _exit(126);
-  execvp(arguments[0], arguments.data());
-  _exit(127);
 }
 
 std::string beginning_of(const std::filesystem::path& path) {
@@ -46,10 +45,26 @@ RunResult run_limited(const std::vector<std::string>& command, const RunLimits& 
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  const std::function<int()> become = [&] {
+    execvp(arguments[0], arguments.data());
+    _exit(127);
+    return 127;
+  };
+  return run_limited(become, limits, errors_path);
+}
+
+RunResult run_limited(const std::function<int()>& body, const RunLimits& limits, const std::filesystem::path& errors_path) {
+  std::fflush(nullptr);  // or the child would write it again
   const Clock::time_point start = Clock::now();
   const pid_t child = fork();
   if (child < 0) throw WriteError(fmt::format("fork: {}", std::strerror(errno)));
-  if (child == 0) become(arguments, limits, errors_path.c_str());
+  if (child == 0) {
+    put_under(limits, errors_path.c_str());
+    const int code = body();
+    // Not exit(): libraries wait at their end for threads that a copy of a process does not have.
+    std::fflush(nullptr);
+    _exit(code);
+  }
   RunResult result;
   int status = 0;
   rusage usage{};
@@ -59,7 +74,7 @@ RunResult run_limited(const std::vector<std::string>& command, const RunLimits& 
       result.timed_out = true;
       kill(child, SIGKILL);
     }
-    usleep(2000);
+    usleep(1000);
   }
   const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
   result.seconds = seconds(usage.ru_utime) + seconds(usage.ru_stime);

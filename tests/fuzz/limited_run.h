@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,9 @@ struct RunResult {
 /// there ends with exit code 127.
 [[nodiscard]] RunResult run_limited(const std::vector<std::string>& command, const RunLimits& limits,
                                     const std::filesystem::path& errors_path);
+
+/// The same for a function in a copy of this process, which ends with the code that it returns: a program without the cost of its start. This
+/// process must have no other thread.
+[[nodiscard]] RunResult run_limited(const std::function<int()>& body, const RunLimits& limits, const std::filesystem::path& errors_path);
 
 }  // namespace etalon::test
