@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # hash_matrix.sh SOURCE BUILD PROGRAM: the same bytes for every compiler, optimisation, thread count and SIMD level.
-# PROGRAM is etalon_hash_scenes as BUILD made it; it draws the fixed scenes of the self-test. Each build also simplifies (hash_collapses.cpp). It is built again by g++ at -O0; with
+# PROGRAM is etalon_hash_scenes as BUILD made it; it draws the fixed scenes of the self-test. Each build also does the jobs (hash_jobs.cpp). It is built again by g++ at -O0; with
 # ETALON_FULL set by g++ and clang++ at -O0, -O2, -O3, with link-time optimisation, for the machine's own instructions, and with the
 # contraction that the kernels of the fast path allow forbidden. One build breaks the rules on purpose (-ffast-math) and must differ: the
 # matrix can see it. (Contraction everywhere, also forbidden, does not change these scenes: their bounds and exact stages take it.)
@@ -18,7 +18,7 @@ golden=$(head -n 1 "$source_dir/data/golden/hash_scenes.sha256" | cut -d' ' -f1)
 failed=0
 
 # What the drawings depend on.
-source_key=$(cd "$source_dir" && find CMakeLists.txt cmake core/base core/math core/image core/mesh core/draw core/procedural core/simplify raster validation/selftest \
+source_key=$(cd "$source_dir" && find CMakeLists.txt cmake core/base core/math core/image core/mesh core/draw core/procedural core/simplify core/progressive core/adapt core/bake raster validation/selftest \
   tests/determinism -type f ! -name hash_matrix.sh -print0 | sort -z | xargs -0 sha256sum | sha256sum | cut -c1-16)
 
 rows="$work/rows.tsv"  # build, expectation (same or differs), evaluation, level, threads, hash
@@ -42,11 +42,11 @@ draw() {
   done < <(tail -n +2 "$drawn")
 }
 
-# collapse NAME PROGRAM: simplification by every metric, where a build is new.
-collapse() {
-  "$2" --threads 1,2,7 --golden "$source_dir/data/golden/hash_collapses.sha256" >"$work/collapses.txt" && return
-  cat "$work/collapses.txt"
-  echo "[etalon] failed: hash_matrix $1: simplification differs from data/golden/hash_collapses.sha256"
+# do_jobs NAME PROGRAM: the jobs on built-in models, where a build is new.
+do_jobs() {
+  "$2" --threads 1,2,7 --golden "$source_dir/data/golden/hash_jobs.sha256" >"$work/jobs.txt" && return
+  cat "$work/jobs.txt"
+  echo "[etalon] failed: hash_matrix $1: a job differs from data/golden/hash_jobs.sha256"
   failed=1
   return 1
 }
@@ -68,9 +68,9 @@ build_and_draw() {
     # The build type is None, so that the flags are these and no others; asserts stay on.
     { cmake -S "$source_dir" -B "$dir" -G Ninja -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_COMPILER="$compiler" \
         -DCMAKE_CXX_FLAGS="${flags% }" -DETALON_IO=OFF -DETALON_GPU=OFF -DETALON_CLI=OFF -DETALON_TESTS=ON "$@" &&
-      ninja -C "$dir" -j "$(nproc)" etalon_hash_scenes etalon_hash_collapses; } >"$dir.log" 2>&1 ||
+      ninja -C "$dir" -j "$(nproc)" etalon_hash_scenes etalon_hash_jobs; } >"$dir.log" 2>&1 ||
       { tail -n 20 "$dir.log"; echo "[etalon] failed: hash_matrix $name does not build"; failed=1; return; }
-    [ "$expectation" = differs ] || collapse "$name" "$dir/tests/determinism/etalon_hash_collapses" || return
+    [ "$expectation" = differs ] || do_jobs "$name" "$dir/tests/determinism/etalon_hash_jobs" || return
   fi
   draw "$name" "$expectation" "$dir/tests/determinism/etalon_hash_scenes" "$key"
 }
