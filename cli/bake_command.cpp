@@ -44,7 +44,7 @@ FrameSize require_options(const Options& options) {
   if (options.output == "-") throw UsageError("bake: a model may be several files: expected -o FILE.obj, .ply or .glb");
   if (!options.reduction.faces && options.reduction.tolerance.empty()) throw UsageError("bake: expected --faces or --tolerance");
   (void)tolerance_of(options.reduction, 1, "bake", true);
-  const FrameSize size = parse_size(options.size);
+  const FrameSize size = parse_size(options.size, bake::kLargestMap);
   try {
     (void)bake::largest_size(size.width, size.height, options.gutter);
   } catch (const InputError& error) {
@@ -153,7 +153,12 @@ void print_result(Console& console, const Options& options, const io::LoadedMode
                              *atlas.gutter == 0 ? "level 0" : fmt::format("levels 0 to {}", *atlas.gutter), grouped(atlas.rows),
                              grouped(atlas.rows_without), growth_of(atlas)));
   if (result.atlas.reductions > 0)
-    console.line(fmt::format("sizes were halved {} times for the map: it filters the colours", grouped(result.atlas.reductions)));
+    console.line(fmt::format("sizes were halved {} for the map: it filters the colours", counted(result.atlas.reductions, "time")));
+  else if (result.texels.inside < result.texels.atlas / 16)
+    console.line(fmt::format(
+        "note: at the scan's mean edge length, {:.6g}, the triangles ask for no more texels: a few long edges make it large, or "
+        "a smaller map would do",
+        result.spacing));
   console.line(fmt::format("largest difference across edges and vertices: {}", result.seam_residual));
 }
 

@@ -190,6 +190,7 @@ Verb add_verify(CLI::App& root) {
   app->add_option("--jobs", options->jobs, fmt::format("Jobs to do, with commas: {} (default: all)", fmt::join(verify_jobs(), ", ")))
       ->type_name("LIST")
       ->delimiter(',')
+      ->allow_extra_args(false)  // a model may follow
       ->check(CLI::IsMember(verify_jobs()));
   app->add_option("--faces", options->faces,
                   "Jobs adapt and bake: their coarsest level has at most so many triangles (default: a tenth; bake: 300 at most)")

@@ -3,6 +3,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/bake/source_tree.h"
 #include "core/bake/surface_fill.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
@@ -10,24 +11,7 @@
 namespace etalon::bake {
 namespace {
 
-// Nearer first, then the lower source.
-using Nearest = std::pair<std::uint64_t, std::uint32_t>;
 constexpr Nearest kNothing{kNoDistance, kNoGroup};
-
-// One triangle of the map while it is worked on.
-struct Face {
-  Face(const FillProblem& problem, std::uint32_t f) : size(problem.atlas.tiles[f].size), first(problem.nodes.first(f)) {
-    const TexelPlane plane = problem.metric.plane(f);
-    least_step = plane.least_step();
-    for_each_texel(size, [&](int i, int j) { centers.push_back(plane.center(i, j)); });
-  }
-  [[nodiscard]] std::uint32_t local(int i, int j) const { return static_cast<std::uint32_t>(j * size - j * (j - 1) / 2 + i); }
-
-  int size;
-  std::uint32_t first;
-  double least_step = 0;
-  std::vector<GridPoint> centers;
-};
 
 class ExactFill {
  public:
@@ -37,15 +21,10 @@ class ExactFill {
   }
 
   SurfaceFill run() {
-    // Blocks of faces: one face may be a single texel row, another half the map.
-    parallel_for_blocks(face_count(), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) search_own_hits(static_cast<std::uint32_t>(f));
-    });
     list_gates();
+    for_each_face(&ExactFill::search_own_hits);
     walk_gates();
-    parallel_for_blocks(face_count(), 16, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) finish(static_cast<std::uint32_t>(f));
-    });
+    for_each_face(&ExactFill::finish);
     return std::move(fill_);
   }
 
@@ -56,42 +35,39 @@ class ExactFill {
     GridPoint center;
   };
 
+  // In blocks: one face may be a single row of texels, another half the map.
+  void for_each_face(void (ExactFill::*step)(std::uint32_t, SourceTree&)) {
+    parallel_for_blocks(face_count(), 16, [&](std::size_t begin, std::size_t end) {
+      SourceTree tree;
+      for (std::size_t f = begin; f < end; ++f) (this->*step)(static_cast<std::uint32_t>(f), tree);
+    });
+  }
+
   [[nodiscard]] std::size_t face_count() const { return problem_.atlas.tiles.size(); }
   [[nodiscard]] bool is_gate(std::uint32_t texel) const { return nodes_.group_of(texel) != kNoGroup && !hits_.is_hit(texel); }
   [[nodiscard]] Nearest at(std::uint32_t texel) const { return {fill_.distance[texel], fill_.source[texel]}; }
   void set(std::uint32_t texel, const Nearest& nearest) { std::tie(fill_.distance[texel], fill_.source[texel]) = nearest; }
 
-  // Every texel: itself where hit, else the nearest hit of its own triangle.
-  void search_own_hits(std::uint32_t f) {
-    const Face face(problem_, f);
-    for_each_texel(face.size, [&](int i, int j) {
-      const std::uint32_t texel = face.first + face.local(i, j);
-      set(texel, hits_.is_hit(texel) ? Nearest{0, nodes_.node_of(texel)} : nearest_own_hit(face, i, j));
-    });
+  // Hit texels: themselves. Gates: the nearest hit of their own triangle.
+  void search_own_hits(std::uint32_t f, SourceTree& tree) {
+    std::vector<SourceTree::Source> sources = own_hits(f);
+    tree.build(sources);
+    if (tree.empty()) return;
+    for (std::uint32_t n = gate_starts_[f]; n < gate_starts_[f + 1]; ++n) set(gates_[n].texel, tree.nearest(gates_[n].center, kNothing));
   }
 
-  [[nodiscard]] Nearest nearest_own_hit(const Face& face, int i, int j) const {
-    const GridPoint center = face.centers[face.local(i, j)];
-    Nearest best = kNothing;
-    const auto visit = [&](int p, int q) {
-      if (p < 0 || q < 0 || p + q >= face.size) return;
-      const std::uint32_t local = face.local(p, q);
-      if (!hits_.is_hit(face.first + local)) return;
-      best = std::min(best, Nearest{grid_distance(center, face.centers[local]), nodes_.node_of(face.first + local)});
-    };
-    // Ring k: the texels at k in the larger of |p − i| and |q − j|. It and all beyond are no nearer than k·least_step − 2.
-    for (int k = 1; k < face.size; ++k) {
-      if (best != kNothing && k * face.least_step - 2 > static_cast<double>(best.first)) break;
-      for (int p = std::max(i - k, 0); p <= std::min(i + k, face.size - 1); ++p) {
-        visit(p, j - k);
-        visit(p, j + k);
+  [[nodiscard]] std::vector<SourceTree::Source> own_hits(std::uint32_t f) {
+    std::vector<SourceTree::Source> hits;
+    const TexelPlane plane = problem_.metric.plane(f);
+    std::uint32_t texel = nodes_.first(f);
+    for_each_texel(problem_.atlas.tiles[f].size, [&](int i, int j) {
+      if (hits_.is_hit(texel)) {
+        hits.push_back({plane.center(i, j), {0, nodes_.node_of(texel)}});
+        set(texel, {0, nodes_.node_of(texel)});
       }
-      for (int q = std::max(j - k + 1, 0); q <= std::min(j + k - 1, face.size - 1); ++q) {
-        visit(i - k, q);
-        visit(i + k, q);
-      }
-    }
-    return best;
+      ++texel;
+    });
+    return hits;
   }
 
   void list_gates() {
@@ -152,28 +128,20 @@ class ExactFill {
   }
 
   // The other texels choose between their own triangle's hits and what came in.
-  void finish(std::uint32_t f) {
-    std::vector<std::pair<Nearest, GridPoint>> entries;
+  void finish(std::uint32_t f, SourceTree& tree) {
+    std::vector<SourceTree::Source> sources = own_hits(f);
     for (std::uint32_t n = gate_starts_[f]; n < gate_starts_[f + 1]; ++n) {
       const std::uint32_t g = nodes_.group_of(gates_[n].texel);
-      if (reached_at_[g] != gates_[n].texel && best_[g] != kNothing) entries.emplace_back(best_[g], gates_[n].center);
+      if (reached_at_[g] != gates_[n].texel && best_[g] != kNothing) sources.push_back({gates_[n].center, best_[g]});
       set(gates_[n].texel, best_[g]);
     }
-    if (entries.empty()) return;
-    std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    tree.build(sources);
+    if (tree.empty()) return;
     const TexelPlane plane = problem_.metric.plane(f);
-    const int size = problem_.atlas.tiles[f].size;
     std::uint32_t texel = nodes_.first(f);
-    for_each_texel(size, [&](int i, int j) {
+    for_each_texel(problem_.atlas.tiles[f].size, [&](int i, int j) {
       const std::uint32_t t = texel++;
-      if (hits_.is_hit(t) || is_gate(t)) return;
-      const GridPoint center = plane.center(i, j);
-      Nearest best = at(t);
-      for (const auto& [nearest, from] : entries) {
-        if (nearest.first > best.first) break;
-        best = std::min(best, Nearest{nearest.first + grid_distance(from, center), nearest.second});
-      }
-      set(t, best);
+      if (!hits_.is_hit(t) && !is_gate(t)) set(t, tree.nearest(plane.center(i, j), kNothing));
     });
   }
 

@@ -36,10 +36,10 @@ struct FillProblem {
 ///
 /// Not all arcs are walked, and nothing is lost: paths change triangles only in nodes of several texels, and within one triangle the straight
 /// arc is never longer than one that stops between (the rounded-up metric obeys the triangle inequality). So it is enough to search, for
-/// each texel, the nearest hit texel of its own triangle, ring by ring of the square lattice up to a proven radius; to run Dijkstra's
-/// algorithm over the nodes on sides; and to let a texel choose between its own triangle's hits and the side texels by which something
-/// nearer came in from outside. A side texel that was itself reached straight through this triangle brings nothing that its origin does not.
-/// Time: about 18 arcs a texel, and rings up to the nearest hit.
+/// each texel on a side, the nearest hit texel of its own triangle; to run Dijkstra's algorithm over the nodes on sides; and to let every
+/// other texel choose between its own triangle's hits and the side texels by which something nearer came in from outside, by a k-d tree of
+/// these (source_tree.h). A side texel that was itself reached straight through this triangle brings nothing that its origin does not.
+/// Time: about n log n in texels, and every pair of one triangle's side texels once.
 [[nodiscard]] SurfaceFill fill_exactly(const FillProblem& problem);
 
 /// What the iteration has just done.

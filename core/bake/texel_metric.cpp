@@ -28,17 +28,4 @@ TexelPlane TexelMetric::plane(std::uint32_t face) const {
   return {a, {(b.x - a.x) / d, (b.y - a.y) / d, (b.z - a.z) / d}, {(c.x - a.x) / d, (c.y - a.y) / d, (c.z - a.z) / d}};
 }
 
-double TexelPlane::least_step() const {
-  // The least |a + y·b|, |y| ≤ 1: with the larger of the two index differences ±k the other is within ±k.
-  const auto least = [](const Vec3d& a, const Vec3d& b) {
-    const Vec3d from{a.x - b.x, a.y - b.y, a.z - b.z}, to{a.x + b.x, a.y + b.y, a.z + b.z};
-    const double t = nearest_on_segment({0, 0, 0}, from, to);
-    const Vec3d q{from.x + t * (to.x - from.x), from.y + t * (to.y - from.y), from.z + t * (to.z - from.z)};
-    return std::sqrt(dot_product(q, q));
-  };
-  const double size = std::sqrt(std::max(dot_product(along_i, along_i), dot_product(along_j, along_j)));
-  // Less the rounding of all this: 2^-40 of the steps.
-  return std::max(0.0, std::min(least(along_i, along_j), least(along_j, along_i)) - 0x1p-40 * size);
-}
-
 }  // namespace etalon::bake

@@ -40,8 +40,6 @@ struct TexelPlane {
     return {on_grid(corner.x + (s * along_i.x + t * along_j.x)), on_grid(corner.y + (s * along_i.y + t * along_j.y)),
             on_grid(corner.z + (s * along_i.z + t * along_j.z))};
   }
-  /// No two centres whose i or j differ by k or more are nearer to each other than k times this, less 2 for the rounding to the grid.
-  [[nodiscard]] double least_step() const;
 };
 
 class TexelMetric {

@@ -18,8 +18,6 @@ namespace {
 // Class k holds the triangles of size 2^k.
 std::size_t class_of(int size) { return static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(size))) % kSizeCount; }
 
-constexpr int kLargestMap = 32768;
-
 // Throws where the triangles do not fit even at the least size.
 void require_room(std::size_t triangles, int width, int height, Gutter gutter) {
   const std::uint64_t least = least_height(triangles, width, gutter), square = least_square(triangles, gutter);

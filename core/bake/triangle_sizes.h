@@ -10,6 +10,9 @@
 
 namespace etalon::bake {
 
+/// Largest side of a texture map, texels: that of the largest frame (docs/contract.md#input).
+inline constexpr int kLargestMap = 16384;
+
 /// D_i: the mean length of the edges of the scan, each counted once, in model units; 0 for a mesh without edges of length above 0.
 [[nodiscard]] double mean_edge_length(const Mesh& mesh);
 
@@ -19,7 +22,7 @@ namespace etalon::bake {
 /// The smallest power of two that is not below `ratio`, from `least` to `largest` (powers of two).
 [[nodiscard]] int wanted_size(double ratio, int largest, int least = 2);
 /// The largest size whose rectangle, d × (d + 1) or pair_block(), a map can hold; InputError for a map that none can be in: width is a power of
-/// two, 2 to 32768, height 3 to 32768, with a gutter for N levels, 0 to 8, a multiple of 2^N.
+/// two, 2 to kLargestMap, height 3 to kLargestMap, with a gutter for N levels, 0 to 8, a multiple of 2^N.
 [[nodiscard]] int largest_size(int width, int height, Gutter gutter = {});
 
 /// One step of the filtering: `face` goes from size `from` to half of it; proximity: its ratio over that half.

@@ -36,12 +36,12 @@ class Walk {
   [[nodiscard]] Landing from(std::uint32_t start, const Vec3d& p, std::vector<std::uint32_t>& met) const {
     Best best;
     met.clear();
-    look_around(start, p, met, best);
+    look_around(start, p, met, std::numeric_limits<double>::infinity(), best);
     while (best.face != kNone) {
-      const std::uint32_t before = best.face;
-      for (const std::uint32_t v : corners_[before].vertex)
-        if (!has(met, v)) look_around(v, p, met, best);
-      if (best.face == before) break;
+      const Best before = best;
+      for (const std::uint32_t v : corners_[before.face].vertex)
+        if (!has(met, v)) look_around(v, p, met, before.at.distance2, best);
+      if (best.face == before.face) break;
     }
     return {.face = best.face == kNone ? FaceId() : FaceId(best.face), .weights = best.at.weights};
   }
@@ -96,13 +96,16 @@ class Walk {
 
   static bool has(const std::vector<std::uint32_t>& met, std::uint32_t v) { return std::find(met.begin(), met.end(), v) != met.end(); }
 
-  void look_around(std::uint32_t v, const Vec3d& p, std::vector<std::uint32_t>& met, Best& best) const {
+  // Triangles around v nearer than `limit`: at a place where several vertices lie, another's triangles are as near, and not its own.
+  void look_around(std::uint32_t v, const Vec3d& p, std::vector<std::uint32_t>& met, double limit, Best& best) const {
     for (const FaceId f : adjacency_.faces_around(v)) {
       const Corners& corners = corners_[f.index];
       if (has(met, corners.vertex[0]) || has(met, corners.vertex[1]) || has(met, corners.vertex[2])) continue;
       if (is_farther(corners, p, best.at.distance2)) continue;
       const NearestOnTriangle found = nearest_on_triangle(p, corners.place[0], corners.place[1], corners.place[2]);
-      if (found.distance2 > best.at.distance2 || (found.distance2 == best.at.distance2 && f.index >= best.face)) continue;
+      if (!(found.distance2 < limit) || found.distance2 > best.at.distance2 ||
+          (found.distance2 == best.at.distance2 && f.index >= best.face))
+        continue;
       best = {found, f.index};
     }
     met.push_back(v);

@@ -27,7 +27,8 @@ class CollapseTrail {
 };
 
 /// By vertex of the scan, on result.mesh: from the triangles around its survivor on to neighbouring ones (those that share a vertex with the
-/// nearest so far) as long as one of them is nearer, and there the nearest point; of equally near triangles the lowest. So a landing is
+/// nearest so far) as long as one of them is nearer, and there the nearest point; of equally near triangles the lowest, but never
+/// those of another vertex at the survivor's place instead of its own. So a landing is
 /// connected with where the collapses took its vertex, whatever other parts of the surface pass near it. A vertex that is still there and
 /// was not moved lands on itself, in its lowest face. Linear in vertices, in parallel; the same for every thread count.
 [[nodiscard]] std::vector<Landing> land_vertices(const Mesh& scan, const simplify::SimplifyResult& result, const CollapseTrail& trail);

@@ -185,7 +185,7 @@ TEST_CASE("what cannot be baked is refused with the reason") {
   }
   BakeOptions options = usual;
   options.width = 100;
-  CHECK_THROWS_WITH_AS((void)bake_scan(knot(), options), "a texture map of 100x64: expected a width that is a power of two, 2 to 32768",
+  CHECK_THROWS_WITH_AS((void)bake_scan(knot(), options), "a texture map of 100x64: expected a width that is a power of two, 2 to 16384",
                        InputError);
   options = {.target_faces = 1000, .width = 32, .height = 32};
   CHECK_THROWS_WITH_AS(

@@ -113,11 +113,11 @@ TEST_CASE("three pairs that use 75 % of the map do not fit") {
 }
 
 TEST_CASE("maps that cannot be are refused, and the smallest that would do is named") {
-  CHECK_THROWS_WITH_AS((void)choose_sizes({1}, 100, 100), "a texture map of 100x100: expected a width that is a power of two, 2 to 32768",
+  CHECK_THROWS_WITH_AS((void)choose_sizes({1}, 100, 100), "a texture map of 100x100: expected a width that is a power of two, 2 to 16384",
                        InputError);
   CHECK_THROWS_AS((void)choose_sizes({1}, 0, 100), InputError);
   CHECK_THROWS_AS((void)choose_sizes({1}, 65536, 100), InputError);
-  CHECK_THROWS_WITH_AS((void)choose_sizes({1}, 64, 2), "a texture map of 64x2: expected a height of 3 to 32768", InputError);
+  CHECK_THROWS_WITH_AS((void)choose_sizes({1}, 64, 2), "a texture map of 64x2: expected a height of 3 to 16384", InputError);
   CHECK_THROWS_AS((void)choose_sizes({std::numeric_limits<double>::infinity()}, 64, 64), InputError);
   const std::vector<double> many(1001, 9);
   CHECK_THROWS_WITH_AS(

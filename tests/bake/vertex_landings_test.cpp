@@ -115,6 +115,26 @@ TEST_CASE("a landing stays on its own sheet, though the other one is nearer for 
   CHECK(other > 50);  // what the whole surface's nearest points would mix up
 }
 
+TEST_CASE("vertices that share a place land in triangles of their own") {
+  // 8 × 8 quads, each triangle with corners of its own; nothing collapses, and most places are six vertices'.
+  Mesh scan;
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      for (const auto& triangle :
+           {std::array{std::pair(0, 0), std::pair(1, 0), std::pair(1, 1)}, {std::pair(0, 0), std::pair(1, 1), std::pair(0, 1)}}) {
+        std::array<WedgeId, 3> face;
+        for (std::size_t c = 0; c < 3; ++c) {
+          scan.positions.push_back({static_cast<float>(x + triangle[c].first), static_cast<float>(y + triangle[c].second), 0});
+          scan.wedges.push_back({.vertex = VertexId(scan.positions.size() - 1)});
+          face[c] = WedgeId(scan.wedges.size() - 1);
+        }
+        scan.faces.push_back(face);
+      }
+  const Decimated all = decimate(scan, scan.face_count());
+  REQUIRE(all.result.mesh.face_count() == scan.face_count());
+  for (std::size_t v = 0; v < scan.vertex_count(); ++v) CHECK(all.landings[v].face.index == v / 3);
+}
+
 TEST_CASE("vertices without a face land nowhere; those of one that is no manifold somewhere; the same for every thread count") {
   Mesh scan = test::fins();
   scan.positions.push_back({9, 9, 9});

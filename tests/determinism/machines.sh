@@ -33,7 +33,7 @@ get_packages() {
   local options=(-o "APT::Architecture=$architecture" -o "APT::Architectures=$architecture" -o "Dir::State=$home/apt" -o "Dir::State::status=$home/apt/status"
     -o "Dir::Cache=$home/apt" -o "Dir::State::lists=$home/apt/lists")
   apt-get "${options[@]}" update &&
-    (cd "$home/apt/archives" && apt-get "${options[@]}" download libfmt-dev libfmt9 libglm-dev libhwy-dev libhwy1 libtbb-dev libtbb12 libtbbmalloc2 \
+    (cd "$home/apt/archives" && apt-get "${options[@]}" download libfmt-dev libfmt9 libglm-dev libhwy-dev libhwy1 libtbb-dev libtbb12 libtbbmalloc2 libtbbbind-2-5 \
       nlohmann-json3-dev libboost1.74-dev libboost-dev doctest-dev) || return 1
   local package
   for package in "$home"/apt/archives/*.deb; do dpkg-deb -x "$package" "$home/root" || return 1; done
