@@ -104,9 +104,9 @@ void store_rational(const BigRational& value, PixelFormat format, int channel, H
     case ChannelType::float32: bits = std::bit_cast<std::uint32_t>(nearest_float32(value)); break;
     case ChannelType::uint32: throw_check_failed(__FILE__, __LINE__, "a number is stored in a format of numbers", to_string(format));
   }
-  const int size = bytes_per_channel(format.type);
-  static_assert(std::endian::native == std::endian::little, "the low bytes are stored");
-  std::memcpy(texel + channel * size, &bits, static_cast<std::size_t>(size));
+  const auto size = static_cast<std::size_t>(bytes_per_channel(format.type));
+  const std::size_t skipped = std::endian::native == std::endian::big ? sizeof bits - size : 0;  // bytes of value 0
+  std::memcpy(texel + static_cast<std::size_t>(channel) * size, reinterpret_cast<const std::byte*>(&bits) + skipped, size);
 }
 
 }  // namespace etalon::validation::reference
