@@ -93,6 +93,7 @@ full_step no-gpu full_preset no-gpu g++
 full_step asan-ubsan full_preset asan-ubsan clang++
 full_step mutants full_mutants
 full_step info-mutants full_info_mutants
+full_step kill-writes full_program "$root/tests/faults/kill_writes.sh" "$root/build/cli/etalon" 1000
 [ -d "$sanitized/tests/fuzz" ] && full_step fuzz full_fuzz
 full_step tsan full_preset tsan clang++
 full_step tidy full_preset tidy clang-tidy
