@@ -71,11 +71,18 @@ TexelPlace parse_texel(const std::string& text) {
   return place;
 }
 
+// A description of a device that `etalon probe` has written, not a name.
+bool is_probe(const std::string& device) {
+  const std::string extension = std::filesystem::path(device).extension().string();
+  return extension == ".json" || extension == ".JSON";
+}
+
 PairOptions pair_options(const Options& options) {
   PairOptions result;
   result.thresholds = thresholds_of(options);
+  if (is_probe(options.device)) result.device = device_of_probe(options.device);
   try {
-    if (!options.device.empty()) result.device = device_of_name(options.device);
+    if (!options.device.empty() && !result.device) result.device = device_of_name(options.device);
   } catch (const InputError& error) {
     throw UsageError(std::string("--device: ") + error.what());
   }
@@ -136,7 +143,6 @@ void print_pair(const PairResult& pair, const PixelThresholds& thresholds, bool 
 int run(const Options& options) {
   apply(options.common);
   require_sensible(options);
-  const PairOptions asked = pair_options(options);
   Console console(console_options(options.common));
   const std::vector<FilePair> files = file_pairs(options.golden, options.candidate);
   CallFiles call;
@@ -146,12 +152,14 @@ int run(const Options& options) {
   }
   call.add_input(options.draws, "--draws");
   call.add_input(options.waivers, "--waivers");
+  if (is_probe(options.device)) call.add_input(options.device, "--device");
   const std::vector<std::pair<std::string, const char*>> outputs{
       {options.output, "-o"}, {options.common.json, "--json"}, {options.junit, "--junit"}, {options.html, "--html"}};
   for (const auto& [path, what] : outputs) {
     call.add_output(path, what);
     require_writable_file(path);
   }
+  const PairOptions asked = pair_options(options);
   const std::vector<Waiver> waivers = options.waivers.empty() ? std::vector<Waiver>() : read_waivers(options.waivers);
 
   raster::CpuRenderer exact;
@@ -163,7 +171,7 @@ int run(const Options& options) {
     else
       pairs.push_back(diff_pair(pair.name, pair.golden, pair.candidate, exact, asked));
   }
-  const std::vector<std::string> unused = apply_waivers(pairs, waivers, options.device, today_utc());
+  const std::vector<std::string> unused = apply_waivers(pairs, waivers, asked.device ? asked.device->model.name : "", today_utc());
   for (const PairResult& pair : pairs) print_pair(pair, asked.thresholds, pairs.size() == 1, console);
   if (pairs.size() > 1) {
     const auto count = [&](PairVerdict verdict) {
@@ -180,6 +188,7 @@ int run(const Options& options) {
   if (pairs.size() == 1 && pairs.front().status == PairStatus::compared)
     inputs = {file_input(options.golden, "golden"), file_input(options.candidate, "candidate")};
   if (!pairs.front().draws_path.empty() && pairs.size() == 1) inputs.push_back(file_input(pairs.front().draws_path, "draws"));
+  if (is_probe(options.device)) inputs.push_back(file_input(options.device, "device"));
   if (!options.waivers.empty()) inputs.push_back(file_input(options.waivers, "waivers"));
   nlohmann::ordered_json document = diff_document(pairs, asked.thresholds, inputs, run_info);
   document["unused_waivers"] = unused;
@@ -225,8 +234,9 @@ Verb add_diff(CLI::App& root) {
   app->add_flag("--abs", options->absolute, "... their absolute values");
   app->add_option("--scale", options->scale, "... times this (1)")->type_name("X")->check(number_between(-1e300, 1e300));
   app->add_flag("-a", options->all, "idiff's 'all subimages': a picture here has one");
-  app->add_option("--device", options->device, "Let the classes decide: contract, llvmpipe, gl, d3d11, vulkan:BITS")
-      ->type_name("NAME")
+  app->add_option("--device", options->device,
+                  "Let the classes decide: contract, llvmpipe, gl, d3d11, vulkan:BITS, or what etalon probe wrote")
+      ->type_name("NAME|PROBE.json")
       ->check(not_empty());
   app->add_option("--draws", options->draws, "What the golden was made from (default: what it names, or the .draws beside it)")
       ->type_name("FILE.draws")

@@ -12,7 +12,9 @@
 #include "cli/attribution.h"
 #include "cli/call_files.h"
 #include "cli/cell_report.h"
+#include "cli/draws_input.h"
 #include "cli/exit_code.h"
+#include "cli/info_findings.h"
 #include "cli/model_input.h"
 #include "core/adapt/cell_chunks.h"
 #include "core/base/error.h"
@@ -33,12 +35,6 @@ using validation::grouped;
 struct Options {
   std::string path;
   CommonOptions common;
-};
-
-/// What there is to say about a file, for a person and for a program.
-struct Finding {
-  std::vector<std::string> lines;
-  Json members = Json::object();
 };
 
 Json to_json(const Defect& defect) { return {{"count", defect.count}, {"first", defect.first}}; }
@@ -124,6 +120,7 @@ Finding examine_image(const std::string& path) {
   finding.members["kind"] = "image";
   finding.members["image"] = {
       {"width", image.width()}, {"height", image.height()}, {"format", to_string(image.format())}, {"sha256", image.sha256()}};
+  add_depths(finding, image);
   return finding;
 }
 
@@ -149,6 +146,7 @@ Finding examine_exr(const std::string& path) {
   finding.members["image"] = {{"width", first.width()}, {"height", first.height()}};
   finding.members["channels"] = std::move(channels);
   finding.members["attributes"] = std::move(attributes);
+  if (content.layers.size() == 1) add_depths(finding, first);
   return finding;
 }
 
@@ -196,11 +194,12 @@ Finding examine(const std::string& path, CallFiles& files) {
   const auto is_one_of = [&](std::initializer_list<const char*> list) {
     return std::any_of(list.begin(), list.end(), [&](const char* e) { return extension == e; });
   };
-  if (is_one_of({".obj", ".ply", ".glb", ".gltf"})) return examine_mesh(path, files);
+  if (is_one_of({".obj", ".ply", ".stl", ".glb", ".gltf"})) return examine_mesh(path, files);
+  if (is_draws_name(path)) return examine_draws(path, files);
   if (extension == ".epm") return examine_progressive(path);
   if (extension == ".exr") return examine_exr(path);
   if (is_one_of({".png", ".jpg", ".jpeg", ".tif", ".tiff"})) return examine_image(path);
-  throw InputError(fmt::format("{}: expected .obj .ply .glb .gltf .epm .png .jpg .tif or .exr, got '{}'", path, extension));
+  throw InputError(fmt::format("{}: expected .obj .ply .stl .glb .gltf .epm .draws .png .jpg .tif or .exr, got '{}'", path, extension));
 }
 
 int run(const Options& options) {
@@ -233,7 +232,8 @@ int run(const Options& options) {
 Verb add_info(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("info", "Say what a mesh or image file holds, and what is wrong with it");
-  app->add_option("file", options->path, "Mesh (.obj .ply .glb .gltf), progressive mesh (.epm) or image (.png .jpg .tif .exr)")
+  app->add_option("file", options->path,
+                  "Mesh (.obj .ply .stl .glb .gltf), progressive mesh (.epm), drawing (.draws) or image (.png .jpg .tif .exr)")
       ->required()
       ->type_name("FILE");
   add_common_options(*app, options->common, "  etalon info head.glb --json -");

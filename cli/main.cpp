@@ -24,6 +24,7 @@
 #include "cli/joint_command.h"
 #include "cli/make_command.h"
 #include "cli/metro_command.h"
+#include "cli/probe_command.h"
 #include "cli/progressive_command.h"
 #include "cli/render_command.h"
 #include "cli/selftest_command.h"
@@ -44,7 +45,8 @@ using namespace etalon::cli;
 void require_known_verb(int argc, char** argv, const std::vector<Verb>& verbs) {
   if (argc < 2)
     throw UsageError(
-        "expected a verb: verify, render, info, make, simplify, progressive, adapt, bake, joint, metro, diff, study or selftest (see "
+        "expected a verb: verify, render, info, make, simplify, progressive, adapt, bake, joint, metro, diff, probe, study or selftest "
+        "(see "
         "etalon "
         "--help)");
   const std::string typed = argv[1];
@@ -71,9 +73,9 @@ int run(int argc, char** argv) {
   root.footer(
       "Examples:\n  etalon verify\n  etalon verify spot.obj --report spot-report\n  etalon render head.glb -o head.png\n"
       "Exit codes: 0 done, 1 warning, 2 check failed, 3 sizes differ, 4 bad input or write error, 64 usage, 130 interrupted.");
-  const std::vector<Verb> verbs{add_verify(root),      add_render(root), add_info(root),    add_make(root),  add_simplify(root),
-                                add_progressive(root), add_adapt(root),  add_bake(root),    add_joint(root), add_metro(root),
-                                add_diff(root),        add_study(root),  add_selftest(root)};
+  const std::vector<Verb> verbs{add_verify(root),      add_render(root), add_info(root),  add_make(root),    add_simplify(root),
+                                add_progressive(root), add_adapt(root),  add_bake(root),  add_joint(root),   add_metro(root),
+                                add_diff(root),        add_probe(root),  add_study(root), add_selftest(root)};
   require_known_verb(argc, argv, verbs);
   try {
     std::vector<std::string> arguments = with_two_dashes({argv + 1, argv + argc});

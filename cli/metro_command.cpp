@@ -121,7 +121,7 @@ int run(const Options& options) {
 Verb add_metro(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("metro", "Measure how far two surfaces are apart, in space and in vertex colour");
-  app->add_option("a", options->a, "Surface A, whose diagonal is 100 %: .obj .ply .glb .gltf")
+  app->add_option("a", options->a, "Surface A, whose diagonal is 100 %: .obj .ply .stl .glb .gltf")
       ->required()
       ->type_name("A")
       ->check(not_empty());

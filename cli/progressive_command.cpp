@@ -191,7 +191,7 @@ int run(const Options& options) {
 Verb add_progressive(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("progressive", "Turn a model into a progressive mesh, or write one of its levels as a model");
-  app->add_option("input", options->input, "Model (.obj .ply .glb .gltf), or a progressive mesh (.epm) to take a level from")
+  app->add_option("input", options->input, "Model (.obj .ply .stl .glb .gltf), or a progressive mesh (.epm) to take a level from")
       ->required()
       ->type_name("IN")
       ->check(not_empty());

@@ -241,7 +241,8 @@ int run(const Options& options, const CLI::App& app) {
 Verb add_render(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("render", "Draw one picture of a model, or of draws that are given");
-  app->add_option("model", options->model_path, "Mesh file: .obj, .ply, .glb, .gltf; or FILE.draws, whose vertices are drawn as they are")
+  app->add_option("model", options->model_path,
+                  "Mesh file: .obj, .ply, .stl, .glb, .gltf; or FILE.draws, whose vertices are drawn as they are")
       ->required()
       ->type_name("MODEL|FILE.draws");
   app->add_option("-o,--output", options->output, "Picture to write: .png, .exr (colour as float32), or '-' for a PNG on standard output")

@@ -208,7 +208,7 @@ int run(const Options& options) {
 Verb add_simplify(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("simplify", "Write a model with fewer triangles: edge collapses in strict order of error");
-  app->add_option("model", options->model, "Mesh: .obj .ply .glb .gltf")->required()->type_name("MODEL")->check(not_empty());
+  app->add_option("model", options->model, "Mesh: .obj .ply .stl .glb .gltf")->required()->type_name("MODEL")->check(not_empty());
   add_reduction_options(*app, options->reduction, 0, "model", "--faces or --ratio");
   app->add_option("--ratio", options->ratio, "Stop at this share of the model's triangles, 0 to 1")
       ->type_name("R")

@@ -185,7 +185,7 @@ std::string quiet_outcome(const VerifyResult& result, const std::string& page) {
 Verb add_verify(CLI::App& root) {
   const auto options = std::make_shared<Options>();
   CLI::App* app = root.add_subcommand("verify", "Draw models on the exact rasterizer and on OpenGL, and explain every texel that differs");
-  app->add_option("models", options->models, "Mesh files: .obj, .ply, .glb, .gltf (default: the embedded head and swirl)")
+  app->add_option("models", options->models, "Mesh files: .obj, .ply, .stl, .glb, .gltf (default: the embedded head and swirl)")
       ->type_name("MODEL");
   app->add_option("--jobs", options->jobs, fmt::format("Jobs to do, with commas: {} (default: all)", fmt::join(verify_jobs(), ", ")))
       ->type_name("LIST")

@@ -23,8 +23,14 @@ struct DeviceModel {
   bool fixed_point_linear8 = false;   ///< unorm8 textures are filtered with 8-bit weights and 8-bit results (gallivm's AoS path)
   bool srgb_polynomial = false;       ///< sRGB is decoded by gallivm's polynomial and encoded by its approximation
   bool unorm_toward_zero = false;     ///< unorm targets are truncated: no device declares it, diagnosis asks it
+  double unorm_error_steps = 0;       ///< of unorm targets, beside the half step of rounding to the nearest
   double coordinate_error_texel = 0;  ///< of texel coordinates that are kept in fixed point, beside what float32 costs them
-  double depth_quantum = 0;           ///< spacing of the depth buffer's values; 0 for float32
+  // Of a device whose filter was measured; fixed_point_linear8 has its own, derived.
+  double weight_error_unorm8_texel = 0;  ///< how far the filter's weights are from exact, textures of bytes
+  double weight_error_texel = 0;         ///< the same, all other textures
+  double filter_error_unorm8 = 0;        ///< of a filtered value beside its weights, textures of bytes
+  double filter_error = 0;               ///< the same, all other textures, in units of the largest texel involved
+  double depth_quantum = 0;              ///< spacing of the depth buffer's values; 0 for float32
 };
 
 /// The oracle itself: every bound 0, any difference is a defect.

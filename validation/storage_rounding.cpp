@@ -99,7 +99,8 @@ StoredCheck check_stored(const std::byte* stored, PixelFormat format, int channe
     const bool linear_unorm =
         format.type == ChannelType::unorm8 || format.type == ChannelType::unorm16 || (format.type == ChannelType::srgb8 && channel == 3);
     if (linear_unorm) {
-      bound += kUnitRoundoff * std::min(1.0, std::abs(exact.value) + exact.bound) + 0x1p-50 / stored_maximum(format.type);
+      bound += kUnitRoundoff * std::min(1.0, std::abs(exact.value) + exact.bound) +
+               (0x1p-50 + device.unorm_error_steps) / stored_maximum(format.type);
     } else if (format.type == ChannelType::srgb8 && device.srgb_polynomial) {
       // The thresholds are one unit apart in the encoded value, and further apart (in the linear one) the brighter.
       const unsigned code = load<std::uint8_t>(stored + channel);

@@ -105,7 +105,9 @@ Choice nearest_choice(const LookupPlan& plan, std::int64_t i, std::int64_t j, co
 Choice linear_choice(const LookupPlan& plan, const DeviceModel& device) {
   const Image& image = *plan.image;
   const double x = plan.x - 0.5, y = plan.y - 0.5;
-  const double extra = plan.fixed_point ? kFixedCoordinateError : 0;
+  const bool is_unorm8 = image.format().type == ChannelType::unorm8;
+  const double extra =
+      plan.fixed_point ? kFixedCoordinateError : (is_unorm8 ? device.weight_error_unorm8_texel : device.weight_error_texel);
   const double reach_x = plan.bound_x + extra, reach_y = plan.bound_y + extra;
   const auto i0 = static_cast<std::int64_t>(std::floor(x)), j0 = static_cast<std::int64_t>(std::floor(y));
   const double f = x - std::floor(x), g = y - std::floor(y);
@@ -143,7 +145,8 @@ Choice linear_choice(const LookupPlan& plan, const DeviceModel& device) {
       }
     }
     value.bound = slope_x * reach_x + slope_y * reach_y + decode + 0x1p-40 * floating +
-                  (plan.fixed_point ? kFixedLerpError / 255 : kLinearFilterError * largest);
+                  (plan.fixed_point ? kFixedLerpError / 255 : kLinearFilterError * largest) +
+                  (is_unorm8 ? device.filter_error_unorm8 : device.filter_error * largest);
   }
   return choice;
 }

@@ -1,4 +1,4 @@
-// Checked access to a JSON document from outside: whoever walks it can only meet values that are there. Not for use outside core/io.
+// Checked access to a JSON document from outside: whoever walks it can only meet values that are there.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@ class JsonRef {
   [[nodiscard]] double real() const;
   [[nodiscard]] std::string text() const;
   [[nodiscard]] std::string text_or(const char* key, const char* fallback) const { return has(key) ? at(key).text() : fallback; }
+  [[nodiscard]] bool is_null() const { return value_->is_null(); }
   [[nodiscard]] bool is_text() const { return value_->is_string(); }
   [[nodiscard]] bool true_at(const char* key) const;
   [[nodiscard]] bool boolean() const;

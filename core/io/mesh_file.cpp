@@ -37,7 +37,7 @@ std::vector<std::string> embedded_texture_names(const fs::path& model_path, cons
   return names;
 }
 
-enum class MeshFormat { obj, ply, gltf };
+enum class MeshFormat { obj, ply, gltf, stl };
 
 /// The format that the content shows without doubt, else `fallback`.
 MeshFormat format_of(std::string_view text, MeshFormat fallback) {
@@ -80,8 +80,10 @@ LoadedModel read_mesh(const fs::path& path) {
     expected = MeshFormat::ply;
   else if (extension == ".glb" || extension == ".gltf")
     expected = MeshFormat::gltf;
+  else if (extension == ".stl")
+    expected = MeshFormat::stl;
   else if (extension != ".obj")
-    fail_file(path.string(), fmt::format("mesh format: expected .obj, .ply, .glb or .gltf, got '{}'", printable(extension)));
+    fail_file(path.string(), fmt::format("mesh format: expected .obj, .ply, .stl, .glb or .gltf, got '{}'", printable(extension)));
   const FileBytes content = read_file(path);
   const MeshFormat format = format_of(content.text(), expected);
   LoadedModel model;
@@ -89,6 +91,7 @@ LoadedModel read_mesh(const fs::path& path) {
     case MeshFormat::obj: model = read_obj(path, content); break;
     case MeshFormat::ply: model = read_ply(path, content); break;
     case MeshFormat::gltf: model = read_gltf(path, content); break;
+    case MeshFormat::stl: model = read_stl(path, content); break;
   }
   if (format != expected)
     model.notes.insert(model.notes.begin(), fmt::format("{}: read as {}, which is what the file holds", path.filename().string(),

@@ -1,4 +1,4 @@
-// Mesh files: Wavefront OBJ (+MTL), PLY, glTF 2.0 (.glb, .gltf).
+// Mesh files: Wavefront OBJ (+MTL), PLY, glTF 2.0 (.glb, .gltf); STL is read, never written (it would lose colours and coordinates).
 // Does not: subdivision surfaces, curves, points and lines, normals, animation, skins, shading beyond the base colour texture.
 #pragma once
 
@@ -36,7 +36,7 @@ struct LoadedModel {
   std::vector<std::filesystem::path> side_files;  ///< what was read beside `path`, textures apart: material libraries, glTF buffers
 };
 
-/// Reads the mesh at `path`; the extension must be .obj, .ply, .glb or .gltf (any case), the content decides where it says otherwise.
+/// Reads the mesh at `path`; the extension must be .obj, .ply, .stl, .glb or .gltf (any case), the content decides where it says otherwise.
 ///
 /// Common to all: polygons become fans around their first corner; every triangle of the file is kept, degenerate ones too; vertices keep
 /// the file's order, also unused ones. Wedges are the different (vertex, uv) pairs: where the file has coordinates at corners, in order of
@@ -47,6 +47,8 @@ struct LoadedModel {
 /// - OBJ: v is up and stays. `v x y z r g b [a]` are colours. A missing material library or texture is a note.
 /// - PLY: texture coordinates s t | u v | texture_u texture_v of vertices, or a `texcoord` list of faces with `texnumber` and
 ///   `comment TextureFile NAME`; v is up and stays. Elements `tristrips`, `range_grid` too.
+/// - STL: no colours, no texture coordinates; points of equal coordinates are welded into one vertex, which keeps the order (and, of zeros,
+///   the sign) of its first appearance. Normals and attribute bytes are skipped, the latter with a note where they are not 0.
 /// - glTF: v runs down there, so v = 1 − v_file in float32: exact for v_file in [0.5, 2] (Sterbenz' lemma), else rounded once.
 ///   Node transforms are applied in double and rounded once; a mirrored one turns its triangles around. All meshes of the default scene
 ///   are joined.

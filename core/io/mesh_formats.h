@@ -17,6 +17,7 @@ namespace etalon::io {
 [[nodiscard]] LoadedModel read_obj(const std::filesystem::path& path, const FileBytes& content);
 /// `max_jump`: of range grids (range_grid.h).
 [[nodiscard]] LoadedModel read_ply(const std::filesystem::path& path, const FileBytes& content, std::optional<double> max_jump = {});
+[[nodiscard]] LoadedModel read_stl(const std::filesystem::path& path, const FileBytes& content);
 [[nodiscard]] LoadedModel read_gltf(const std::filesystem::path& path, const FileBytes& content);
 
 /// `credit`: one line, or empty.

@@ -9,7 +9,7 @@ TEST_CASE("--help: exit 0, on standard output, with an example for each verb") {
   CHECK(root.exit_code == 0);
   CHECK(root.err.empty());
   for (const std::string verb :
-       {"verify", "render", "info", "make", "simplify", "progressive", "adapt", "bake", "joint", "metro", "diff", "study"}) {
+       {"verify", "render", "info", "make", "simplify", "progressive", "adapt", "bake", "joint", "metro", "diff", "probe", "study"}) {
     CAPTURE(verb);
     CHECK(root.out.find(verb) != std::string::npos);
     const CommandResult help = run_etalon({verb, "--help"});

@@ -64,6 +64,10 @@ void put_meshes(const fs::path& folder) {
   for (const char* vertex : {"\0\0\0\0\0\0\0\0\0\0\0\0\0\0", "\x3f\x80\0\0\0\0\0\0\0\0\0\0\0\0", "\0\0\0\0\x3f\xf0\0\0\0\0\0\0\0\1"})
     big += std::string(vertex, 14);
   put(folder / "ply/big_endian.ply", big + "\3\0\0\0\0\0\0\0\1\0\0\0\2\6"s + std::string(24, '\0'));
+  put(folder / "stl/text.stl",
+      "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid x\n");
+  put(folder / "stl/binary.stl", "solid but binary" + std::string(64, '\0') + "\1\0\0\0"s + std::string(24, '\0') + "\0\0\x80\x3f"s +
+                                     std::string(12, '\0') + "\0\0\x80\x3f"s + std::string(6, '\0'));
   const io::LoadedModel model = small_model();
   fs::create_directories(folder / "gltf");
   io::write_mesh(folder / "ply/little_endian.ply", model.mesh);

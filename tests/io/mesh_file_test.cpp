@@ -36,6 +36,24 @@ TEST_CASE("mesh file: every kind of mesh comes back bit by bit from every format
         }
 }
 
+TEST_CASE("mesh file: no colour and no coordinate is lost on the way from any format through any other to any third") {
+  const ScratchFolder folder;
+  std::uint64_t seed = 100;
+  for (const char* first : {"a.obj", "a.ply", "a.glb"})
+    for (const char* second : {"b.obj", "b.ply", "b.glb"})
+      for (const char* third : {"c.obj", "c.ply", "c.glb"})
+        for (const Colors colors : {Colors::bytes, Colors::reals}) {
+          CAPTURE(first);
+          CAPTURE(second);
+          CAPTURE(third);
+          const Mesh mesh = seam_mesh(true, colors, true, seed++);
+          write_mesh(folder / first, mesh);
+          write_mesh(folder / second, read_mesh(folder / first).mesh);
+          write_mesh(folder / third, read_mesh(folder / second).mesh);
+          check_same_surface(read_mesh(folder / third).mesh, mesh);
+        }
+}
+
 TEST_CASE("mesh file: glTF rounds small v once, the other formats do not") {
   const ScratchFolder folder;
   Mesh mesh = seam_mesh(true, Colors::none, false, 1);
@@ -122,12 +140,12 @@ TEST_CASE("mesh file: the extension must be known, the content wins with a note"
   const Mesh mesh = seam_mesh(true, Colors::none, false, 1);
   write_mesh(folder / "m.PLY", mesh);
   std::filesystem::copy(folder / "m.PLY", folder / "n.obj");
-  std::filesystem::copy(folder / "m.PLY", folder / "n.stl");
+  std::filesystem::copy(folder / "m.PLY", folder / "n.xyz");
   const LoadedModel model = read_mesh(folder / "n.obj");
   check_same_surface(model.mesh, mesh);
   CHECK(model.notes == std::vector<std::string>{"n.obj: read as PLY, which is what the file holds"});
-  CHECK(input_error([&] { (void)read_mesh(folder / "n.stl"); }) ==
-        (folder / "n.stl").string() + ": mesh format: expected .obj, .ply, .glb or .gltf, got '.stl'");
+  CHECK(input_error([&] { (void)read_mesh(folder / "n.xyz"); }) ==
+        (folder / "n.xyz").string() + ": mesh format: expected .obj, .ply, .stl, .glb or .gltf, got '.xyz'");
   CHECK(input_error([&] { (void)read_mesh(folder / "none.obj"); }) == (folder / "none.obj").string() + ": No such file or directory");
   std::filesystem::create_directory(folder / "d.obj");
   CHECK(input_error([&] { (void)read_mesh(folder / "d.obj"); }) == (folder / "d.obj").string() + ": expected a file, got a folder");

@@ -96,6 +96,17 @@ TEST_CASE("the share of the bound that is needed") {
   CHECK(check_stored(bytes(code), {ChannelType::unorm8, 1}, 0, HalfRounding::nearest_even, {128.4 / 255, 0}, device).share == 0);
 }
 
+TEST_CASE("unorm within 0.6 steps, where a specification allows that") {
+  DeviceModel loose = specified_model("loose", 2, 8, "");
+  const auto legal = [&](std::uint8_t code, double value) {
+    return check_stored(bytes(code), {ChannelType::unorm8, 1}, 0, HalfRounding::nearest_even, {value, 0}, loose).legal;
+  };
+  CHECK_FALSE(legal(10, 10.59 / 255));
+  loose.unorm_error_steps = 0.1;
+  CHECK(legal(10, 10.59 / 255));
+  CHECK_FALSE(legal(10, 10.61 / 255));
+}
+
 TEST_CASE("truncated unorm, where it is asked for") {
   DeviceModel truncating = llvmpipe_model();
   truncating.unorm_toward_zero = true;

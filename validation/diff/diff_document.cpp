@@ -56,8 +56,11 @@ Json to_json(const PairResult& pair) {
   json["pixels"] = to_json(pair.pixels);
   if (!pair.device.empty()) {
     json.update(tally_json(pair.page.tally, pair.unproven_ties));
-    json["device"] = {
-        {"name", pair.device}, {"bounds", pair.bounds}, {"proven", pair.bounds_proven}, {"by_draws", !pair.draws_path.empty()}};
+    json["device"] = {{"name", pair.device},
+                      {"bounds", pair.bounds},
+                      {"origin", pair.bound_origin},
+                      {"proven", pair.bounds_proven},
+                      {"by_draws", !pair.draws_path.empty()}};
     json["diagnosis"] = pair.page.diagnosis;
     json["worst"] = Json::array();
     for (const WorstTexel& t : pair.page.worst)
@@ -135,7 +138,9 @@ std::vector<std::string> pair_lines(const PairResult& pair, const PixelThreshold
     if (p.differing > 0) lines.push_back(would_pass(p));
   } else {
     lines.push_back(class_line(pair));
-    lines.push_back(fmt::format("device {}, bounds {}{}", pair.device, pair.bounds, pair.bounds_proven ? "" : " (no proof)"));
+    const char* caveat =
+        pair.bounds_proven ? "" : (pair.bound_origin == "measured" ? " (rests on a measured bound: no proof)" : " (no proof)");
+    lines.push_back(fmt::format("device {}, bounds {}{}", pair.device, pair.bounds, caveat));
     if (pair.unproven_ties > 0)
       lines.push_back(
           "tie?: a rounding or a tie, not proven: that needs the draws (--draws FILE.draws, or a golden with its draws beside it)");

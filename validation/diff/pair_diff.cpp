@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/io/draws_file.h"
 #include "validation/diff/picture.h"
+#include "validation/probe/probe_document.h"
 #include "validation/report/json_report.h"
 #include "validation/verify/draw_list_hash.h"
 #include "validation/verify/drawn_pair.h"
@@ -59,6 +60,12 @@ std::optional<io::DrawsFile> find_draws(const Picture& golden, const PairOptions
     throw InputError(fmt::format("{}: expected the draw list {} that {} was made from, got {}", path.string(), expected, golden.path, got));
   result.draws_path = path.string();
   return draws;
+}
+
+void require_fill_rule(const io::DrawsFile& draws, const DiffDevice& device, const std::string& path) {
+  if (device.fill_rule && *device.fill_rule != draws.frame.state.fill_rule)
+    throw InputError(fmt::format("{}: {} fills edges by {}: expected state.fill_rule to be that, got {}; draw the golden of draws with it",
+                                 path, device.model.name, to_string(*device.fill_rule), to_string(draws.frame.state.fill_rule)));
 }
 
 void require_on_grid(const io::DrawsFile& draws, const DiffDevice& device, const std::string& path) {
@@ -112,9 +119,11 @@ void require_golden_of_draws(const Picture& golden, const io::DrawsFile& draws, 
 // Classes by the draws. Returns the class image; the golden becomes what its draws give in the candidate's format.
 Image classify_by_draws(PairResult& result, Picture& golden, const Picture& candidate, const io::DrawsFile& draws, Renderer& exact,
                         const PairOptions& options) {
+  require_fill_rule(draws, *options.device, result.draws_path);
   require_on_grid(draws, *options.device, result.draws_path);
   require_golden_of_draws(golden, draws, exact, result.draws_path);
   Frame frame = draws.frame;
+  frame.state.half_rounding = options.device->half_rounding.value_or(frame.state.half_rounding);
   frame.targets = {color_target(draws, candidate.color.format())};
   DrawnPair pair;
   pair.gl.push_back(in_target_format(candidate.color, frame.targets.front()));
@@ -243,6 +252,8 @@ void compare(PairResult& result, Renderer& exact, const PairOptions& options) {
   if (options.device) {
     const std::optional<io::DrawsFile> draws = find_draws(golden, options, result);
     result.device = options.device->model.name;
+    result.bound_origin = to_string(options.device->model.origin);
+    if (result.note.empty()) result.note = options.device->caveat;
     result.bounds = fmt::format("{}: {}", to_string(options.device->model.origin), options.device->model.valid_for);
     classes = draws ? classify_by_draws(result, golden, candidate, *draws, exact, options) : classify_by_image(result, a, b);
     if (draws) result.pixels = compare_pixels(a, b, options.thresholds);
@@ -303,28 +314,44 @@ DiffDevice device_of_name(const std::string& name) {
   if (name == "llvmpipe") return {llvmpipe_model(), 8};
   if (name == "gl") {
     // 1e-5 = 168 · 2^-24.
-    return {specified_model("gl", 168, 0,
-                            "OpenGL 4.6 core, 2.3.4.1: operations are accurate to about 1 part in 10^5; 14.6.1, SUBPIXEL_BITS >= 4"),
+    return {specified_model("gl", 168, 0, "OpenGL 4.6 core, 2.3.4.1: operations are accurate to about 1 part in 10^5; SUBPIXEL_BITS >= 4"),
             4};
   }
   if (name == "d3d11") {
-    return {specified_model("d3d11", 2, 8,
-                            "Direct3D 11.3 functional specification, 3.1: one unit in the last place; 3.4.1: 16.8 positions; 7.18.8: 8 "
-                            "bits of texel fraction"),
-            8};
+    DiffDevice device{
+        .model = specified_model("d3d11", 2, 8,
+                                 "Direct3D 11.3 functional specification, 3.1.3: within 1 ULP; 3.2.2: halves toward zero; "
+                                 "3.2.3.6: unorm within 0.6 steps; 3.2.4, 7.18.8: 8 bits of texel fraction; 3.4.1: 8 bits of position"),
+        .subtexel_bits = 8,
+        .half_rounding = HalfRounding::toward_zero};
+    device.model.unorm_error_steps = 0.1;
+    return device;
   }
   if (name.starts_with("vulkan:")) {
     const std::string bits = name.substr(7);
     const bool digits = !bits.empty() && bits.size() <= 2 && bits.find_first_not_of("0123456789") == std::string::npos;
     const int value = digits ? std::stoi(bits) : 0;
     if (value >= 4 && value <= 16)
-      return {
-          specified_model(
-              name, 5, 4,
-              "Vulkan 1.3, Precision of SPIR-V Instructions: 2.5 ULP; Limits: subPixelPrecisionBits as given, subTexelPrecisionBits >= 4"),
-          value};
+      return {specified_model(name, 5, 4,
+                              "Vulkan 1.3, Precision of Individual Operations: within 2.5 ULP; Required Limits: subTexelPrecisionBits >= "
+                              "4; subPixelPrecisionBits as given"),
+              value};
   }
   throw InputError(fmt::format("expected contract, llvmpipe, gl, d3d11 or vulkan:BITS with 4 to 16 sub-texel bits, got '{}'", name));
+}
+
+DiffDevice device_of_probe(const std::string& path) {
+  const ProbeRecord record = read_probe(path);
+  const ProbeFindings& found = record.findings;
+  DiffDevice device{.model = model_of_findings(found, record.device.name, record.day)};
+  // A grid of 16 bits is one that was too fine to be seen.
+  const int bits = found.coverage.subtexel_bits.value_or(found.coverage.nearest_bits);
+  device.subtexel_bits = bits == 16 ? 0 : bits;
+  device.fill_rule = found.coverage.fill_rule;
+  device.half_rounding = found.storage.half;
+  if (!found.coverage.fill_rule)
+    device.caveat = fmt::format("{} covers texels by no one fill rule: differences of coverage are unexplained", record.device.name);
+  return device;
 }
 
 std::string to_string(PairStatus status) {

@@ -19,11 +19,17 @@ namespace etalon::validation {
 /// A device by name, as the command line gives it.
 struct DiffDevice {
   DeviceModel model;
-  int subtexel_bits = 0;  ///< of its grid: draws must lie on it; 0: any
+  int subtexel_bits = 0;                           ///< of its grid: draws must lie on it; 0: any
+  std::optional<FillRule> fill_rule = {};          ///< measured: the draws must have the same; nothing: the draws' own
+  std::optional<HalfRounding> half_rounding = {};  ///< measured: of half candidates; nothing: the draws' own
+  std::string caveat = {};                         ///< one line for whoever relies on the result; may be empty
 };
 
 /// "contract", "llvmpipe", "gl", "d3d11", "vulkan:BITS" (sub-texel bits, 4 to 16). InputError for any other name.
 [[nodiscard]] DiffDevice device_of_name(const std::string& name);
+
+/// PROBE.json of `etalon probe`: bounds that were measured, times a factor (docs/probe.md). InputError as read_probe().
+[[nodiscard]] DiffDevice device_of_probe(const std::string& path);
 
 struct TexelPlace {
   int x = 0, y = 0;  ///< row 0 lowest
@@ -51,9 +57,10 @@ struct PairResult {
   std::string problem;  ///< one line where nothing could be compared
   PairVerdict verdict = PairVerdict::pass;
   PixelComparison pixels;
-  std::string draws_path;  ///< by which ties were proven; empty where there were none
-  std::string device;      ///< empty: no classes
-  std::string bounds;      ///< "derived: llvmpipe of …"
+  std::string draws_path;    ///< by which ties were proven; empty where there were none
+  std::string device;        ///< empty: no classes
+  std::string bounds;        ///< "derived: llvmpipe of …"
+  std::string bound_origin;  ///< to_string(BoundOrigin)
   bool bounds_proven = false;
   std::uint64_t unproven_ties = 0;  ///< in no other class
   std::string note;
