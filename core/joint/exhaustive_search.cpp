@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
 
 #include "core/base/error.h"
@@ -17,7 +18,14 @@ AllPairs evaluate_all(const Problem& problem, const std::function<void(std::size
   all.errors.resize(all.mesh_count * all.texture_count);
   for (std::size_t i = all.mesh_count; i-- > 0;) {
     if (progress) progress((all.mesh_count - 1 - i) * all.texture_count, all.errors.size());
-    for (std::size_t j = all.texture_count; j-- > 0;) all.errors[i * all.texture_count + j] = problem.error(i, j);
+    const auto row = all.errors.begin() + static_cast<std::ptrdiff_t>(i * all.texture_count);
+    if (problem.errors_of_mesh) {
+      const std::vector<std::uint64_t> errors = problem.errors_of_mesh(i);
+      ETALON_CHECK(errors.size() == all.texture_count, std::to_string(errors.size()));
+      std::ranges::copy(errors, row);
+    } else {
+      for (std::size_t j = all.texture_count; j-- > 0;) row[static_cast<std::ptrdiff_t>(j)] = problem.error(i, j);
+    }
   }
   return all;
 }

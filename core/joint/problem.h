@@ -16,6 +16,8 @@ struct Problem {
   std::vector<std::uint64_t> texture_bits;  ///< M + 1
   /// D(M_i, T_j): an integer, say the sum of squared differences of a picture's bytes, below 2^62. Called from one thread.
   std::function<std::uint64_t(std::size_t mesh, std::size_t texture)> error;
+  /// The same of one mesh with every texture, coarsest first, where that is faster than one by one; may be empty.
+  std::function<std::vector<std::uint64_t>(std::size_t mesh)> errors_of_mesh;
 
   [[nodiscard]] std::uint64_t bits(std::size_t mesh, std::size_t texture) const { return mesh_bits[mesh] + texture_bits[texture]; }
 };

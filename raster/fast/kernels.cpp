@@ -34,6 +34,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 #include "raster/fast/small_kernels.inc"
 #include "raster/fast/make_plane_kernels.inc"
 #include "raster/fast/margin_kernels.inc"
+#include "raster/fast/lookup_kernels.inc"
 #undef ETALON_INLINE_STEP
 // clang-format on
 
@@ -64,6 +65,8 @@ const Kernels* kernels() {
       .depth_test = depth_test,
       .edge_distance = edge_distance,
       .border_distance = border_distance,
+      .lookup_squares = lookup_squares,
+      .lookup_squares_of_group = lookup_squares_of_group,
       .vector_doubles = static_cast<int>(hn::Lanes(kDoubles)),
   };
   return &table;

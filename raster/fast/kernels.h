@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/draw/state.h"
@@ -98,6 +99,16 @@ struct alignas(64) SmallTriangles {
   unsigned empty, other;  ///< bits: draws nothing in the tile; is not small
 };
 
+/// Lookups of kLookupBlock at a time: texels (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1) of four bytes with weights (1 − fx)(1 − fy), fx(1 − fy) …
+inline constexpr std::size_t kLookupBlock = 16;
+struct LookupBlocks {
+  const std::uint32_t* texel;   ///< (i, j)
+  const float *fx, *fy;         ///< in [0, 1], within 2^-25 of the exact ones
+  const std::uint32_t* wanted;  ///< R, G, B, 255 from the lowest byte on
+};
+/// Textures that are looked up at once.
+inline constexpr std::size_t kGroupTextures = 8;
+
 struct Kernels {
   /// All but depth; then that.
   void (*set_up_small)(const CornerBatch& corners, const TileFrame& frame, SmallTriangles& result);
@@ -158,6 +169,13 @@ struct Kernels {
   LaneMask (*edge_distance)(const RunTriangles& run, int lanes, int edges, const Positions& at, FloatLanes& result);
   /// |u·size − offset − nearest integer|.
   LaneMask (*border_distance)(const Values& u, int lanes, int size, double offset, FloatLanes& result);
+  /// Adds the squared differences of all four bytes of bilinear lookups, each rounded to a byte, and the wanted ones, of `count` <= 64 blocks, to `sum`.
+  /// Bit n: a value of block n may be a tie, and nothing of it was added.
+  LaneMask (*lookup_squares)(const std::byte* texels, std::uint32_t row_texels, const LookupBlocks& blocks, int count, std::uint64_t& sum);
+  /// The same for kGroupTextures textures: texels of 3·kGroupTextures bytes, the R of all textures, then G, then B. Bit t of undecided[n]: nothing of
+  /// block n was added to sums[t].
+  void (*lookup_squares_of_group)(const std::byte* texels, std::uint32_t row_texels, const LookupBlocks& blocks, int count,
+                                  std::uint64_t* sums, std::uint8_t* undecided);
   int vector_doubles;  ///< lanes of one vector
 };
 

@@ -9,7 +9,6 @@
 
 #include "gpu/gl_format.h"
 #include "gpu/gl_texture.h"
-#include "gpu/guard_viewport.h"
 
 namespace etalon::bench {
 namespace {
@@ -82,6 +81,7 @@ ResidentScene::ResidentScene(gpu::Context& context, const BenchScene& scene)
     : gl_(context.gl()),
       width_(scene.frame.width),
       height_(scene.frame.height),
+      viewport_(gpu::guard_viewport(scene.frame)),
       depth_test_(scene.frame.state.depth_test),
       vertex_array_(gpu::make_vertex_array(gl_)),
       vertices_(gpu::make_buffer(gl_)),
@@ -110,7 +110,7 @@ ResidentScene::ResidentScene(gpu::Context& context, const BenchScene& scene)
 void ResidentScene::bind() const {
   gl_.bind_vertex_array(vertex_array_.id());
   gl_.use_program(program_.id());
-  gl_.viewport(0, 0, width_, height_);
+  gl_.viewport(viewport_.x, viewport_.y, viewport_.width, viewport_.height);
   gl_.disable(gl::kDither);
   gl_.disable(gl::kMultisample);
   gl_.disable(gl::kBlend);

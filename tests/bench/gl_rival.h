@@ -7,6 +7,7 @@
 
 #include "gpu/context.h"
 #include "gpu/gl_objects.h"
+#include "gpu/guard_viewport.h"
 #include "tests/bench/bench_scene.h"
 
 namespace etalon::bench {
@@ -27,6 +28,7 @@ class ResidentScene {
  private:
   const gpu::gl::Api& gl_;
   int width_, height_;
+  gpu::GuardViewport viewport_;  ///< powers of two: larger than frames that are none
   bool depth_test_;
   gpu::GlHandle vertex_array_, vertices_, indices_, program_;
 };

@@ -19,6 +19,7 @@
 #include "tests/bench/bench_document.h"
 #include "tests/bench/bench_options.h"
 #include "tests/bench/fan_scene.h"
+#include "tests/bench/pair_rival.h"
 #include "tests/bench/scene_bench.h"
 #include "tests/bench/surface_benches.h"
 #include "tests/support/skip.h"
@@ -121,18 +122,19 @@ std::vector<raster::SimdLevel> levels_beside_reference(bool all) {
 void write_results(const nlohmann::ordered_json& document, const BenchOptions& options) {
   if (!options.json.empty()) io::write_file(options.json, document.dump(2) + "\n");
   const std::string tables = document.at("scenes").empty() ? "" : bench_tables(document), surfaces = surface_tables(document);
-  const std::string textures = stream_tables(document), baking = bake_block(document);
+  const std::string textures = stream_tables(document), baking = bake_block(document), joint = joint_block(document);
   if (!options.page.empty()) {
     std::string page(io::read_file(options.page).text());
     if (!tables.empty()) page = with_tables(page, tables);
     if (!surfaces.empty()) page = with_surface_tables(page, surfaces);
     if (!textures.empty()) page = with_stream_tables(page, textures);
     if (!baking.empty()) page = with_bake_tables(page, baking);
+    if (!joint.empty()) page = with_joint_tables(page, joint);
     io::write_file(options.page, page);
   }
   if (const std::string picture = surface_picture(document); !options.picture.empty() && !picture.empty())
     io::write_file(options.picture, picture);
-  fmt::print("\n{}{}{}{}\n", tables, surfaces, textures, baking);
+  fmt::print("\n{}{}{}{}{}\n", tables, surfaces, textures, baking, joint);
 }
 
 int measure(const BenchOptions& options) {
@@ -165,7 +167,9 @@ int measure(const BenchOptions& options) {
   if (registered > 0) benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::Shutdown();
   if (!options.only_ours) {
-    outcome.surfaces = measure_surface_scenes(options);
+    MakePairRival make_rival;
+    if (context) make_rival = [&](const validation::TerrainProblem& terrain) { return make_gl_pair_rival(*context, terrain); };
+    outcome.surfaces = measure_surface_scenes(options, make_rival);
     outcome.skipped += outcome.surfaces.skipped;
     nlohmann::ordered_json document = bench_document(run, outcome.results);
     add_surface_results(outcome.surfaces, document);
@@ -179,6 +183,7 @@ int measure(const BenchOptions& options) {
 
 int run(int argc, char** argv) {
   if (argc > 1 && argv[1] == std::string(kSimplifyChild)) return simplify_child({argv + 2, argv + argc});
+  if (argc > 1 && argv[1] == std::string(kQuadtreeChild)) return quadtree_child({argv + 2, argv + argc});
   // Google Benchmark takes its own options out and leaves ours.
   std::vector<std::string> arguments;
   std::vector<char*> theirs{argv[0]};

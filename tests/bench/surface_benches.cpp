@@ -61,15 +61,15 @@ void measure_distance_scene(const BenchOptions& options, SurfaceResults& results
   }
 }
 
-std::string with_machine(const nlohmann::ordered_json& document, const std::function<std::string()>& make_tables) {
+std::string with_machine(const nlohmann::ordered_json& document, const std::function<std::string()>& make_tables,
+                         const std::string& how = "One thread, CPU seconds of the library's call.") {
   try {
     const std::string tables = make_tables();
     if (tables.empty()) return tables;
     const auto& machine = document.at("machine");
-    return fmt::format("Measured on {}: {}, {} cores, {}, {}; load {:.1f} at the start. One thread, CPU seconds of the library's call.\n\n",
-                       machine.at("date").get<std::string>(), machine.at("cpu").get<std::string>(), machine.at("cores").get<int>(),
-                       machine.at("system").get<std::string>(), machine.at("compiler").get<std::string>(),
-                       machine.at("load").get<double>()) +
+    return fmt::format("Measured on {}: {}, {} cores, {}, {}; load {:.1f} at the start. {}\n\n", machine.at("date").get<std::string>(),
+                       machine.at("cpu").get<std::string>(), machine.at("cores").get<int>(), machine.at("system").get<std::string>(),
+                       machine.at("compiler").get<std::string>(), machine.at("load").get<double>(), how) +
            tables;
   } catch (const nlohmann::json::exception& error) {
     throw InputError(fmt::format("expected a document of --json: {}", error.what()));
@@ -92,10 +92,11 @@ std::vector<std::pair<std::string, std::string>> surface_scene_titles() {
   titles.emplace_back(kMetroScene, kMetroTitle);
   for (const TextureScene& scene : texture_scenes()) titles.emplace_back(scene.name, scene.title + ", beside OpenJPEG");
   for (const auto& title : bake_scene_titles()) titles.push_back(title);
+  for (const auto& title : joint_scene_titles()) titles.push_back(title);
   return titles;
 }
 
-SurfaceResults measure_surface_scenes(const BenchOptions& options) {
+SurfaceResults measure_surface_scenes(const BenchOptions& options, const MakePairRival& make_rival) {
   SurfaceResults results;
   const SimplifyBenchOptions bench{
       .program = std::filesystem::read_symlink("/proc/self/exe").string(), .rounds = options.repetitions, .seconds = options.seconds};
@@ -116,6 +117,10 @@ SurfaceResults measure_surface_scenes(const BenchOptions& options) {
   for (const std::string& scene : results.baking.absent) absent(results, scene);
   results.measured += results.baking.measured;
   report(results, "bake", bake_figures(results.baking.result));
+  results.joint = measure_joint_scenes(options, bench.program, make_rival);
+  for (const std::string& scene : results.joint.absent) absent(results, scene);
+  results.measured += results.joint.measured();
+  report(results, "joint", joint_figures(results.joint));
   return results;
 }
 
@@ -123,6 +128,7 @@ void add_surface_results(const SurfaceResults& results, nlohmann::ordered_json& 
   if (!results.simplifications.empty()) document["simplification"] = simplify_document(results.simplifications);
   if (results.metro) document["metro"] = metro_document(*results.metro);
   if (results.baking.measured > 0) document["baking"] = bake_document(results.baking.result);
+  if (results.joint.measured() > 0) document["joint"] = joint_document(results.joint);
   if (!results.textures.empty()) document["textures"] = texture_document(results.textures);
 }
 
@@ -143,10 +149,20 @@ std::string bake_block(const nlohmann::ordered_json& document) {
   return with_machine(document, [&] { return document.contains("baking") ? bake_tables(document.at("baking")) : ""; });
 }
 
+std::string joint_block(const nlohmann::ordered_json& document) {
+  const int threads = document.contains("threads") ? document.at("threads").get<int>() : 0;
+  const std::string rival = document.contains("rival") ? document.at("rival").get<std::string>() : "";
+  return with_machine(
+      document, [&] { return document.contains("joint") ? joint_tables(document.at("joint")) : ""; },
+      fmt::format("Ours: {} threads. Rival: {}.", threads, rival.empty() ? "none" : rival));
+}
+
 std::string surface_picture(const nlohmann::ordered_json& document) {
   if (document.contains("simplification"))
     if (const std::string picture = growth_picture(document.at("simplification")); !picture.empty()) return picture;
-  return document.contains("baking") ? bake_growth_picture(document.at("baking")) : "";
+  if (document.contains("baking"))
+    if (const std::string picture = bake_growth_picture(document.at("baking")); !picture.empty()) return picture;
+  return document.contains("joint") ? quadtree_picture(document.at("joint")) : "";
 }
 
 std::string with_surface_tables(const std::string& page, const std::string& tables) {
@@ -155,6 +171,10 @@ std::string with_surface_tables(const std::string& page, const std::string& tabl
 
 std::string with_stream_tables(const std::string& page, const std::string& tables) {
   return with_block(page, tables, kStreamBlockBegin, kStreamBlockEnd);
+}
+
+std::string with_joint_tables(const std::string& page, const std::string& tables) {
+  return with_block(page, tables, kJointBlockBegin, kJointBlockEnd);
 }
 
 }  // namespace etalon::bench

@@ -1,4 +1,4 @@
-// The scenes of simplification, of the surface distance, of texture streams and of baking, as etalon_bench runs them beside the drawings.
+// The scenes of simplification, of the surface distance, of texture streams, of baking and of joint compression, as etalon_bench runs them beside the drawings.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,7 @@
 
 #include "tests/bench/bake_scenes.h"
 #include "tests/bench/bench_options.h"
+#include "tests/bench/joint_bench.h"
 #include "tests/bench/metro_bench.h"
 #include "tests/bench/simplify_bench.h"
 #include "tests/bench/texture_bench.h"
@@ -19,6 +20,7 @@ struct SurfaceResults {
   std::optional<MetroBenchResult> metro;
   std::vector<TextureSceneResult> textures;
   BakeScenes baking;
+  JointScenes joint;
   std::size_t measured = 0;
   int skipped = 0;
 };
@@ -27,19 +29,21 @@ struct SurfaceResults {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> surface_scene_titles();
 
 /// Those that the options ask for.
-[[nodiscard]] SurfaceResults measure_surface_scenes(const BenchOptions& options);
+[[nodiscard]] SurfaceResults measure_surface_scenes(const BenchOptions& options, const MakePairRival& make_rival);
 
-/// As document["simplification"], document["metro"], document["textures"] and document["baking"], where there are any.
+/// As document["simplification"], document["metro"], document["textures"], document["baking"] and document["joint"], where there are any.
 void add_surface_results(const SurfaceResults& results, nlohmann::ordered_json& document);
 /// Of such a document; empty where it has none.
 [[nodiscard]] std::string surface_tables(const nlohmann::ordered_json& document);
 [[nodiscard]] std::string stream_tables(const nlohmann::ordered_json& document);  ///< of textures
 [[nodiscard]] std::string bake_block(const nlohmann::ordered_json& document);     ///< of baking
-/// How simplification grows; where that was not measured, how baking does.
+[[nodiscard]] std::string joint_block(const nlohmann::ordered_json& document);    ///< of joint compression
+/// How simplification grows; where that was not measured, how baking does, or the quadtree.
 [[nodiscard]] std::string surface_picture(const nlohmann::ordered_json& document);
-/// The page with its measured block of surfaces, or of textures, replaced. InputError where it has none.
+/// The page with its measured block of surfaces, of textures, or of joint compression, replaced. InputError where it has none.
 [[nodiscard]] std::string with_surface_tables(const std::string& page, const std::string& tables);
 [[nodiscard]] std::string with_stream_tables(const std::string& page, const std::string& tables);
+[[nodiscard]] std::string with_joint_tables(const std::string& page, const std::string& tables);
 
 inline constexpr const char* kSurfaceBlockBegin = "<!-- measured surfaces: begin (etalon_bench --page) -->\n";
 inline constexpr const char* kSurfaceBlockEnd = "<!-- measured surfaces: end -->\n";

@@ -62,6 +62,7 @@ std::vector<HashedWay> ways_of(const Arguments& arguments) {
   append(simplify_ways());
   append(adapt_ways());
   append(bake_ways());
+  append(joint_ways());
   return ways;
 }
 

@@ -22,5 +22,8 @@ std::vector<HashedWay> simplify_ways();
 std::vector<HashedWay> adapt_ways();
 /// Mesh and texture by every fill, with and without a gutter; a range image.
 std::vector<HashedWay> bake_ways();
+/// The order in which a terrain's points go, its stream and a mesh; texture streams and what prefixes of them decode to; errors of all pairs and the
+/// files of paths.
+std::vector<HashedWay> joint_ways();
 
 }  // namespace etalon::test

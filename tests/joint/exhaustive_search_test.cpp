@@ -11,6 +11,21 @@ using namespace etalon;
 using namespace etalon::joint;
 using namespace etalon::test;
 
+TEST_CASE("a mesh's errors with all textures at once are taken as those of its pairs") {
+  Problem problem{{1, 2, 4}, {1, 3}, [](std::size_t i, std::size_t j) { return 10 * i + j; }, {}};
+  const AllPairs one_by_one = evaluate_all(problem);
+  std::vector<std::size_t> asked;
+  problem.error = [](std::size_t, std::size_t) -> std::uint64_t { throw InternalError("not asked for"); };
+  problem.errors_of_mesh = [&](std::size_t i) {
+    asked.push_back(i);
+    return std::vector<std::uint64_t>{10 * i, 10 * i + 1};
+  };
+  CHECK(evaluate_all(problem).errors == one_by_one.errors);
+  CHECK(asked == std::vector<std::size_t>{2, 1, 0});
+  problem.errors_of_mesh = [](std::size_t) { return std::vector<std::uint64_t>{1}; };
+  CHECK_THROWS_AS((void)evaluate_all(problem), InternalError);
+}
+
 TEST_CASE("the staircase is the least error over all pairs of at most b bits, for every b") {
   Rng rng(5);
   for (int round = 0; round < 40; ++round) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -15,12 +15,11 @@ namespace etalon::validation {
 namespace {
 
 constexpr int kWeightBits = 24;
-constexpr std::uint32_t kOne = 1u << kWeightBits;
-constexpr std::uint32_t kRounded = 1u << 31;
 constexpr std::size_t kBlock = 8192;
 
 struct Axis {
-  std::uint32_t texel, weight;  ///< of the second texel, with kRounded
+  std::uint32_t texel;
+  double weight;  ///< of the second texel
 };
 
 // x = a·n − ½ is exact in double: a has 24 bits, n at most 15, and where x is not clamped a·n >= ½, so that x has no bit below 2^-40.
@@ -30,9 +29,18 @@ double lookup_place(float a, int size) { return static_cast<double>(a) * size - 
 Axis lookup_axis(float a, int size) {
   const double x = lookup_place(a, size);
   if (!(x > 0)) return {0, 0};
-  if (x >= size - 1) return {static_cast<std::uint32_t>(size - 2), kOne};
-  const double below = std::floor(x), scaled = (x - below) * kOne, weight = std::nearbyint(scaled);
-  return {static_cast<std::uint32_t>(below), static_cast<std::uint32_t>(weight) | (weight == scaled ? 0 : kRounded)};
+  if (x >= size - 1) return {static_cast<std::uint32_t>(size - 2), 1};
+  const auto below = static_cast<std::int32_t>(x);
+  return {static_cast<std::uint32_t>(below), x - below};
+}
+
+struct Weight {
+  std::int64_t value;  ///< in multiples of 2^-24
+  bool is_rounded;
+};
+Weight rounded_weight(const Axis& axis) {
+  const double scaled = axis.weight * (1u << kWeightBits), value = std::nearbyint(scaled);
+  return {static_cast<std::int64_t>(value), value != scaled};
 }
 
 // Nearest, ties to even.
@@ -103,49 +111,53 @@ Image draw_in_two_passes(Renderer& renderer, const Mesh& mesh, std::shared_ptr<c
   return picture;
 }
 
-CoordinatePicture::CoordinatePicture(const DrawnCoordinates& drawn, int texture_width, int texture_height)
-    : coordinates_(drawn.coordinates), texture_width_(texture_width), texture_height_(texture_height) {
+CoordinatePicture::CoordinatePicture(DrawnCoordinates drawn, int texture_width, int texture_height)
+    : coordinates_(std::move(drawn.coordinates)), texture_width_(texture_width), texture_height_(texture_height) {
   if (texture_width < 2 || texture_height < 2)
     throw InputError(fmt::format("texture: expected at least 2x2 texels, got {}x{}", texture_width, texture_height));
   const auto* uv = coordinates_.channels<float>(0, 0);
   const auto* ids = drawn.ids.channels<std::uint32_t>(0, 0);
-  for (std::uint32_t n = 0; n < coordinates_.texel_count(); ++n) {
-    if (ids[n] == kNoTriangle) {
-      uncovered_.push_back(n);
-      continue;
+  const std::size_t texels = coordinates_.texel_count(), blocks = texels / kBlock + 1;
+  std::vector<std::size_t> starts(blocks + 1);  // covered texels before each block
+  parallel_for_blocks(texels, kBlock, [&](std::size_t begin, std::size_t end) {
+    starts[begin / kBlock + 1] =
+        static_cast<std::size_t>(std::count_if(ids + begin, ids + end, [](std::uint32_t id) { return id != kNoTriangle; }));
+  });
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  at_.resize(starts.back()), texel_.resize(starts.back()), fx_.resize(starts.back()), fy_.resize(starts.back());
+  parallel_for_blocks(texels, kBlock, [&](std::size_t begin, std::size_t end) {
+    std::size_t to = starts[begin / kBlock];
+    for (std::size_t n = begin; n < end; ++n) {
+      if (ids[n] == kNoTriangle) continue;
+      const Axis x = lookup_axis(uv[2 * n], texture_width), y = lookup_axis(uv[2 * n + 1], texture_height);
+      at_[to] = static_cast<std::uint32_t>(n);
+      texel_[to] = y.texel * static_cast<std::uint32_t>(texture_width) + x.texel;
+      fx_[to] = static_cast<float>(x.weight), fy_[to] = static_cast<float>(y.weight);
+      ++to;
     }
-    const Axis x = lookup_axis(uv[2 * n], texture_width), y = lookup_axis(uv[2 * n + 1], texture_height);
-    lookups_.push_back({n, y.texel * static_cast<std::uint32_t>(texture_width) + x.texel, x.weight, y.weight});
-  }
+  });
 }
 
-template <class Body>
-void CoordinatePicture::for_each_color(const Image& texture, std::size_t begin, std::size_t end, const Body& body) const {
+// Lookup n in integers.
+std::array<std::uint8_t, 3> CoordinatePicture::color(const std::uint8_t* texels, std::size_t n) const {
   constexpr std::int64_t kFraction = (std::int64_t{1} << (2 * kWeightBits)) - 1, kHalf = (kFraction + 1) / 2;
   // Two weights off by at most 2^-25 each, values to 255: the sum is off by less than 2^-16; where half is nearer than that it is left open.
   constexpr std::int64_t kOpen = (kFraction + 1) >> 16;
-  const auto* const texels = reinterpret_cast<const std::uint8_t*>(texture.bytes().data());
-  const std::size_t row = 4 * static_cast<std::size_t>(texture_width_);
-  for (std::size_t n = begin; n < end; ++n) {
-    const Lookup& lookup = lookups_[n];
-    const std::int64_t fx = lookup.fx & ~kRounded, fy = lookup.fy & ~kRounded;
-    const bool is_rounded = ((lookup.fx | lookup.fy) & kRounded) != 0;
-    const std::uint8_t* const low = texels + 4 * std::size_t{lookup.texel};
-    const std::uint8_t* const high = low + row;
-    std::array<std::uint8_t, 3> color;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::int64_t a = (std::int64_t{low[c]} << kWeightBits) + fx * (low[c + 4] - low[c]);
-      const std::int64_t b = (std::int64_t{high[c]} << kWeightBits) + fx * (high[c + 4] - high[c]);
-      const std::int64_t sum = (a << kWeightBits) + fy * (b - a);
-      color[c] = rounded_sum(sum);
-      const std::int64_t beyond_half = (sum & kFraction) - kHalf;
-      if (is_rounded && beyond_half <= kOpen && beyond_half >= -kOpen) [[unlikely]] {
-        const auto* uv = coordinates_.channels<float>(0, 0) + 2 * std::size_t{lookup.at};
-        color[c] = exact_value(uv[0], uv[1], texture_width_, texture_height_, {low[c], low[c + 4], high[c], high[c + 4]});
-      }
-    }
-    body(lookup.at, color);
+  const auto* const uv = coordinates_.channels<float>(0, 0) + 2 * std::size_t{at_[n]};
+  const Weight x = rounded_weight(lookup_axis(uv[0], texture_width_)), y = rounded_weight(lookup_axis(uv[1], texture_height_));
+  const std::uint8_t* const low = texels + 4 * std::size_t{texel_[n]};
+  const std::uint8_t* const high = low + 4 * static_cast<std::size_t>(texture_width_);
+  std::array<std::uint8_t, 3> color;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const std::int64_t a = (std::int64_t{low[c]} << kWeightBits) + x.value * (low[c + 4] - low[c]);
+    const std::int64_t b = (std::int64_t{high[c]} << kWeightBits) + x.value * (high[c + 4] - high[c]);
+    const std::int64_t sum = (a << kWeightBits) + y.value * (b - a);
+    color[c] = rounded_sum(sum);
+    const std::int64_t beyond_half = (sum & kFraction) - kHalf;
+    if ((x.is_rounded || y.is_rounded) && beyond_half <= kOpen && beyond_half >= -kOpen) [[unlikely]]
+      color[c] = exact_value(uv[0], uv[1], texture_width_, texture_height_, {low[c], low[c + 4], high[c], high[c + 4]});
   }
+  return color;
 }
 
 void CoordinatePicture::require_texture(const Image& texture) const {
@@ -156,34 +168,16 @@ void CoordinatePicture::require_texture(const Image& texture) const {
 Image CoordinatePicture::picture(const Image& texture) const {
   require_texture(texture);
   Image picture(coordinates_.width(), coordinates_.height(), kRgba8);
+  const auto* const texels = texture.channels<std::uint8_t>(0, 0);
   auto* const out = picture.channels<std::uint8_t>(0, 0);
-  parallel_for_blocks(lookups_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    for_each_color(texture, begin, end, [&](std::uint32_t at, const std::array<std::uint8_t, 3>& color) {
-      std::uint8_t* const texel = out + 4 * std::size_t{at};
-      texel[0] = color[0], texel[1] = color[1], texel[2] = color[2], texel[3] = 255;
-    });
+  parallel_for_blocks(at_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      std::uint8_t* const texel = out + 4 * std::size_t{at_[n]};
+      std::ranges::copy(color(texels, n), texel);
+      texel[3] = 255;
+    }
   });
   return picture;
-}
-
-std::uint64_t CoordinatePicture::sse(const Image& texture, const Image& reference) const {
-  require_texture(texture);
-  ETALON_CHECK(reference.format() == kRgba8 && reference.texel_count() == coordinates_.texel_count(), "a picture of the frame's size");
-  const auto* const wanted = reference.channels<std::uint8_t>(0, 0);
-  const auto squares = [wanted](std::uint32_t at, const std::array<std::uint8_t, 3>& color) {
-    const std::uint8_t* const texel = wanted + 4 * std::size_t{at};
-    const int r = color[0] - texel[0], g = color[1] - texel[1], b = color[2] - texel[2];
-    return static_cast<std::uint64_t>(r * r + g * g + b * b);
-  };
-  std::vector<std::uint64_t> sums(lookups_.size() / kBlock + 1);
-  parallel_for_blocks(lookups_.size(), kBlock, [&](std::size_t begin, std::size_t end) {
-    std::uint64_t sum = 0;
-    for_each_color(texture, begin, end, [&](std::uint32_t at, const auto& color) { sum += squares(at, color); });
-    sums[begin / kBlock] = sum;
-  });
-  std::uint64_t sse = std::accumulate(sums.begin(), sums.end(), std::uint64_t{0});
-  for (const std::uint32_t at : uncovered_) sse += squares(at, {0, 0, 0});
-  return sse;
 }
 
 Image opaque_rgba(const Image& image) {

@@ -6,12 +6,14 @@
 // uncovered texels are black. draw_in_two_passes() has a renderer do both; CoordinatePicture does the second itself, in integers: the same bytes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "core/draw/camera.h"
 #include "core/draw/renderer.h"
+#include "validation/joint/texture_group.h"
 
 namespace etalon::validation {
 
@@ -45,31 +47,39 @@ struct LookupPass {
 class CoordinatePicture {
  public:
   /// For textures of this size, at least 2 × 2 (InputError).
-  CoordinatePicture(const DrawnCoordinates& drawn, int texture_width, int texture_height);
+  CoordinatePicture(DrawnCoordinates drawn, int texture_width, int texture_height);
 
   /// The picture of a texture (RGBA unorm8, opaque, of that size).
   [[nodiscard]] Image picture(const Image& texture) const;
 
-  /// Sum of squared RGB differences between the picture of `texture` and `reference` (RGBA unorm8, the frame's size), over the whole frame.
-  [[nodiscard]] std::uint64_t sse(const Image& texture, const Image& reference) const;
+  /// A picture that others are compared with: made once for all textures.
+  struct Reference {
+    std::vector<std::uint32_t> covered;  ///< its texels where this picture is covered, RGBA of 8 bits
+    std::uint64_t elsewhere = 0;         ///< sum of the squares of its R, G, B where it is not
+  };
+  /// `wanted`: RGBA unorm8, the frame's size.
+  [[nodiscard]] Reference reference(const Image& wanted) const;
 
-  [[nodiscard]] std::size_t covered_texels() const { return lookups_.size(); }
+  /// Sum of squared RGB differences between the picture of `texture` and the reference, over the whole frame. By vectors, and in integers where
+  /// these cannot decide how a value is rounded.
+  [[nodiscard]] std::uint64_t sse(const Image& texture, const Reference& reference) const;
+
+  /// The same for all textures of a group.
+  [[nodiscard]] TextureGroup::Sums sse(const TextureGroup& textures, const Reference& reference) const;
+
+  [[nodiscard]] std::size_t covered_texels() const { return at_.size(); }
 
  private:
-  // Texel (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1) with weights (1 − fx)(1 − fy) …, fx and fy in multiples of 2^-24.
-  struct Lookup {
-    std::uint32_t at;      ///< in the frame
-    std::uint32_t texel;   ///< (i, j) in the texture
-    std::uint32_t fx, fy;  ///< 0..2^24; the highest bit: rounded
-  };
-  template <class Body>
-  void for_each_color(const Image& texture, std::size_t begin, std::size_t end, const Body& body) const;
+  [[nodiscard]] std::array<std::uint8_t, 3> color(const std::uint8_t* texels, std::size_t lookup) const;
+  [[nodiscard]] std::uint64_t square(const std::uint8_t* texels, std::size_t lookup, const Reference& reference) const;
   void require_texture(const Image& texture) const;
 
   Image coordinates_;
   int texture_width_, texture_height_;
-  std::vector<Lookup> lookups_;
-  std::vector<std::uint32_t> uncovered_;
+  // By covered texel, in the frame's order: where it is; texel (i, j) of (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1); the weights of the second
+  // column and row.
+  std::vector<std::uint32_t> at_, texel_;
+  std::vector<float> fx_, fy_;
 };
 
 /// RGBA unorm8, opaque. InputError for other formats than RGB and RGBA unorm8 (1 channel: grey).

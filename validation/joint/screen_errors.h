@@ -24,9 +24,13 @@ class ScreenErrors {
 
   /// Sum of squared differences of R, G, B over the whole frame; texels that show nothing are black.
   [[nodiscard]] std::uint64_t sse(std::size_t mesh, std::size_t texture);
+  /// Of a mesh with each texture: faster than one by one, for a second copy of the textures' colours.
+  [[nodiscard]] std::vector<std::uint64_t> sse_of_mesh(std::size_t mesh);
   [[nodiscard]] Image picture(std::size_t mesh, std::size_t texture);
 
   [[nodiscard]] std::uint64_t samples() const { return 3 * std::uint64_t{problem_.reference.texel_count()}; }  ///< that sse() sums over
+  /// As if nothing had been asked for.
+  void forget_drawings() { last_.clear(), groups_.clear(); }
   [[nodiscard]] std::size_t meshes_drawn() const { return meshes_drawn_; }
   [[nodiscard]] const Image& reference() const { return problem_.reference; }
 
@@ -34,12 +38,14 @@ class ScreenErrors {
   struct Drawn {
     std::size_t mesh;
     CoordinatePicture picture;
+    CoordinatePicture::Reference reference;
   };
-  const CoordinatePicture& drawn(std::size_t mesh);
+  const Drawn& drawn(std::size_t mesh);
 
   Renderer& renderer_;
   ScreenProblem problem_;
-  std::list<Drawn> last_;  ///< latest use first
+  std::vector<TextureGroup> groups_;  ///< of all textures; made when first needed
+  std::list<Drawn> last_;             ///< latest use first
   std::size_t meshes_drawn_ = 0;
 };
 

@@ -45,7 +45,10 @@ TerrainProblem::TerrainProblem(Renderer& renderer, const terrain::HeightField& f
 }
 
 joint::Problem TerrainProblem::problem() {
-  return joint::problem_of(*levels_, [errors = errors_.get()](std::size_t i, std::size_t j) { return errors->sse(i, j); });
+  joint::Problem problem =
+      joint::problem_of(*levels_, [errors = errors_.get()](std::size_t i, std::size_t j) { return errors->sse(i, j); });
+  problem.errors_of_mesh = [errors = errors_.get()](std::size_t i) { return errors->sse_of_mesh(i); };
+  return problem;
 }
 
 }  // namespace etalon::validation

@@ -171,6 +171,10 @@ const char* lead_of(const std::string& job) {
   if (job == "bake")
     return "The model as few triangles whose texture map holds its colours, one half-square of texels each: a lookup that misses its own "
            "half-square shows another part of the surface.";
+  if (job == "joint")
+    return "A procedural terrain and its image as pairs of levels in one budget of bits: each mesh drawn into its texture coordinates, "
+           "each "
+           "texture looked up through the exact ones. It is the same whatever the models.";
   return "The textured model, in perspective, with depth test.";
 }
 

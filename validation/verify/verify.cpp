@@ -9,12 +9,16 @@
 #include "validation/verify/verify_adapt.h"
 #include "validation/verify/verify_bake.h"
 #include "validation/verify/verify_case.h"
+#include "validation/verify/verify_joint.h"
 #include "validation/verify/verify_maps.h"
 
 namespace etalon::validation {
 namespace {
 
-constexpr const char *kAdapt = "adapt", *kBake = "bake";
+constexpr const char *kAdapt = "adapt", *kBake = "bake", *kJoint = "joint";
+
+// Their scenes are made as they are drawn.
+bool is_prepared(const std::string& job) { return job == kAdapt || job == kBake || job == kJoint; }
 
 /// A scene that is still to be drawn.
 struct Plan {
@@ -80,7 +84,7 @@ JobPlan plan_job(const std::string& job, const std::vector<VerifyModel>& models,
   JobPlan result{job, {}, ""};
   if (std::find(verify_jobs().begin(), verify_jobs().end(), job) == verify_jobs().end())
     throw InputError(fmt::format("verify: expected a job of {}, got '{}'", fmt::join(verify_jobs(), ", "), job));
-  if (job == kAdapt || job == kBake) return result;
+  if (is_prepared(job)) return result;
   for (const VerifyModel& model : models) {
     const std::vector<Plan> plans = job == "render" ? plan_render(model, options) : plan_indexed(model, options);
     result.plans.insert(result.plans.end(), plans.begin(), plans.end());
@@ -138,10 +142,15 @@ JobResult run_prepared(const std::string& job, const std::vector<VerifyModel>& m
       result.cases.push_back(std::move(item));
     }
   };
-  for (const VerifyModel& model : models) {
-    const auto progress = [&](std::size_t done, std::size_t total) {
-      if (options.on_progress) options.on_progress(fmt::format("{}: {}", job, model.name), static_cast<int>(done), static_cast<int>(total));
+  const auto report = [&](const std::string& name) {
+    return [&, name](std::size_t done, std::size_t total) {
+      if (options.on_progress) options.on_progress(fmt::format("{}: {}", job, name), static_cast<int>(done), static_cast<int>(total));
     };
+  };
+  if (job == kJoint) keep(joint_cases(exact, device, options, report("terrain")));
+  for (const VerifyModel& model : models) {
+    if (job == kJoint) break;
+    const auto progress = report(model.name);
     if (job == kAdapt) {
       keep(adapt_cases(model, exact, device, options, progress));
       continue;
@@ -183,7 +192,7 @@ void describe_sides(VerifyResult& result, const Renderer& exact, const VerifyDev
 }  // namespace
 
 const std::vector<std::string>& verify_jobs() {
-  static const std::vector<std::string> kJobs{"render", "indexed", kAdapt, kBake};
+  static const std::vector<std::string> kJobs{"render", "indexed", kAdapt, kBake, kJoint};
   return kJobs;
 }
 
@@ -207,7 +216,7 @@ VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact,
   }
   int done = 0;
   for (const JobPlan& job : jobs) {
-    if (job.job == kAdapt || job.job == kBake) {
+    if (is_prepared(job.job)) {
       result.jobs.push_back(run_prepared(job.job, models, frame, exact, device, options));
       continue;
     }

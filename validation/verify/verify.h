@@ -31,7 +31,7 @@ struct NamedView {
 };
 
 struct VerifyOptions {
-  std::vector<std::string> jobs{"render", "indexed", "adapt", "bake"};
+  std::vector<std::string> jobs{"render", "indexed", "adapt", "bake", "joint"};
   std::vector<NamedView> views{{"fit", {}}, {"front", {}}};  ///< the job `indexed` uses the first
   int width = 1024;
   int height = 1024;
@@ -59,7 +59,7 @@ struct VerifyDevice {
 [[nodiscard]] const std::vector<std::string>& verify_jobs();
 
 /// Draws and compares. A job that an input cannot do is reported in JobResult::skipped, never an error; a job of several models is skipped
-/// only where none can do it. The result depends on models, options and device alone: same bytes for any number of threads.
+/// only where none can do it. `joint` draws a terrain of its own, once. The result depends on models, options and device alone: same bytes for any number of threads.
 /// InputError: a view is degenerate, a model breaks the contract's ranges, a job is unknown.
 [[nodiscard]] VerifyResult run_verify(const std::vector<VerifyModel>& models, Renderer& exact, const VerifyDevice& device,
                                       const VerifyOptions& options);

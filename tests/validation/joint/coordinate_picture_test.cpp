@@ -5,6 +5,7 @@
 #include "core/base/error.h"
 #include "core/base/rng.h"
 #include "raster/cpu_renderer.h"
+#include "raster/simd_level.h"
 #include "validation/joint/screen_errors.h"
 #include "validation/metrics/image_difference.h"
 
@@ -92,11 +93,46 @@ TEST_CASE("the sum of squared differences is that of the pictures' RGB, uncovere
   const Image texture = chance_texture(3, 64, 48), blurred = chance_texture(4, 64, 48);
   const CoordinatePicture one(draw_coordinates(exact, mesh, kFrame), 64, 48), two(draw_coordinates(exact, other, kFrame), 64, 48);
   const Image reference = one.picture(texture);
-  CHECK(one.sse(texture, reference) == 0);
+  CHECK(one.sse(texture, one.reference(reference)) == 0);
   const ImageDifference difference = measure_difference(two.picture(blurred), reference);
   const std::uint64_t rgb = difference.channels[0].sse + difference.channels[1].sse + difference.channels[2].sse;
   CHECK(rgb > 0);
-  CHECK(two.sse(blurred, reference) == rgb);
+  CHECK(two.sse(blurred, two.reference(reference)) == rgb);
+}
+
+TEST_CASE("errors by vectors of every kind, one texture or a group at a time, are the pictures' own") {
+  raster::CpuRenderer exact;
+  const Mesh mesh = chance_mesh(5, 9, -0.1, 1.1);
+  const raster::SimdLevel level = raster::simd_level();
+  // 64 x 32: ties abound in 2 x 2 texels of 0 and 1; 61 x 33: weights are rounded.
+  for (const auto& [width, height] : {std::pair{64, 32}, {61, 33}, {2, 2}}) {
+    const CoordinatePicture through(draw_coordinates(exact, mesh, kFrame), width, height);
+    REQUIRE(through.covered_texels() % 16 != 0);
+    std::vector<Image> textures;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+      textures.push_back(chance_texture(seed, width, height));
+      if (seed % 2 == 1)
+        for (std::size_t n = 0; n < textures.back().bytes().size(); ++n)
+          if (n % 4 != 3) textures.back().bytes()[n] &= std::byte{1};
+    }
+    const CoordinatePicture::Reference reference = through.reference(chance_texture(99, kFrame.width, kFrame.height));
+    std::vector<std::uint64_t> wanted;
+    for (const Image& texture : textures) {
+      const ImageDifference d = measure_difference(through.picture(texture), chance_texture(99, kFrame.width, kFrame.height));
+      wanted.push_back(d.channels[0].sse + d.channels[1].sse + d.channels[2].sse);
+    }
+    for (const raster::SimdLevel each : raster::available_simd_levels()) {
+      raster::set_simd_level(each);
+      CAPTURE(raster::to_string(each));
+      for (std::size_t t = 0; t < textures.size(); ++t) CHECK(through.sse(textures[t], reference) == wanted[t]);
+      for (const std::size_t count : {8, 3, 1}) {
+        const TextureGroup group(std::span<const Image>(textures).first(count));
+        const TextureGroup::Sums sums = through.sse(group, reference);
+        for (std::size_t t = 0; t < count; ++t) CHECK(sums[t] == wanted[t]);
+      }
+    }
+    raster::set_simd_level(level);
+  }
 }
 
 TEST_CASE("screen errors draw each mesh once for all its textures") {
@@ -115,6 +151,12 @@ TEST_CASE("screen errors draw each mesh once for all its textures") {
     }
   CHECK(errors.sse(1, 2) == 0);
   CHECK(errors.meshes_drawn() == 2);
+  const std::vector<std::uint64_t> row = errors.sse_of_mesh(0);
+  REQUIRE(row.size() == 3);
+  for (std::size_t j = 0; j < 3; ++j) CHECK(row[j] == errors.sse(0, j));
+  errors.forget_drawings();
+  CHECK(errors.sse_of_mesh(1)[2] == 0);
+  CHECK(errors.meshes_drawn() == 3);
 }
 
 TEST_CASE("textures of one texel's width, and of formats without bytes, are refused") {
