@@ -10,6 +10,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
+#include "cli/attribution.h"
 #include "cli/call_files.h"
 #include "cli/diff_files.h"
 #include "cli/exit_code.h"
@@ -140,6 +141,14 @@ void print_pair(const PairResult& pair, const PixelThresholds& thresholds, bool 
   console.line(std::string("  ") + word_of(pair.verdict));
 }
 
+VerifyInput input_of(const std::string& path, const std::string& sha256, const std::string& role) {
+  return {.name = std::filesystem::path(path).filename().string(),
+          .sha256 = sha256,
+          .path = path,
+          .role = role,
+          .attribution = attribution_of(sha256)};
+}
+
 int run(const Options& options) {
   apply(options.common);
   require_sensible(options);
@@ -186,7 +195,8 @@ int run(const Options& options) {
   run_info.paths = {options.golden, options.candidate};
   std::vector<VerifyInput> inputs;
   if (pairs.size() == 1 && pairs.front().status == PairStatus::compared)
-    inputs = {file_input(options.golden, "golden"), file_input(options.candidate, "candidate")};
+    inputs = {input_of(pairs.front().golden_path, pairs.front().golden_sha256, "golden"),
+              input_of(pairs.front().candidate_path, pairs.front().candidate_sha256, "candidate")};
   if (!pairs.front().draws_path.empty() && pairs.size() == 1) inputs.push_back(file_input(pairs.front().draws_path, "draws"));
   if (is_probe(options.device)) inputs.push_back(file_input(options.device, "device"));
   if (!options.waivers.empty()) inputs.push_back(file_input(options.waivers, "waivers"));
@@ -235,7 +245,7 @@ Verb add_diff(CLI::App& root) {
   app->add_option("--scale", options->scale, "... times this (1)")->type_name("X")->check(number_between(-1e300, 1e300));
   app->add_flag("-a", options->all, "idiff's 'all subimages': a picture here has one");
   app->add_option("--device", options->device,
-                  "Let the classes decide: contract, llvmpipe, gl, d3d11, vulkan:BITS, or what etalon probe wrote")
+                  "Let the classes decide: contract, llvmpipe, gl, d3d11, vulkan:BITS[:TEXELBITS], or what etalon probe wrote")
       ->type_name("NAME|PROBE.json")
       ->check(not_empty());
   app->add_option("--draws", options->draws, "What the golden was made from (default: what it names, or the .draws beside it)")

@@ -23,16 +23,38 @@ bool is_picture(const fs::path& path) {
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
 }
 
+// A texture that render --write-draws wrote beside STEM.draws: STEM.0.png, STEM.1.exr, …
+bool is_texture_of_draws(const fs::path& path) {
+  const fs::path stem = path.stem();
+  const std::string number = stem.extension().string();
+  if (number.size() < 2 || number.find_first_not_of("0123456789", 1) != std::string::npos) return false;
+  std::error_code ignored;
+  return fs::exists(path.parent_path() / stem.stem().concat(".draws"), ignored);
+}
+
 std::map<std::string, std::string> pictures_below(const std::string& folder) {
   std::map<std::string, std::string> found;
   std::error_code error;
   for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     std::error_code ignored;
-    if (at->is_regular_file(ignored) && is_picture(at->path()))
+    if (at->is_regular_file(ignored) && is_picture(at->path()) && !is_texture_of_draws(at->path()))
       found.emplace(at->path().lexically_relative(folder).generic_string(), at->path().string());
   }
   if (error) throw InputError(fmt::format("{}: {}", folder, error.message()));
   return found;
+}
+
+// A golden without a candidate takes the one of the same name in another format: golden.exr and golden.png. Only where there is one of each.
+void pair_by_stem(std::map<std::string, FilePair>& pairs) {
+  std::map<std::string, std::array<std::vector<std::string>, 2>> single;
+  for (const auto& [name, pair] : pairs)
+    if (pair.golden.empty() || pair.candidate.empty())
+      single[fs::path(name).replace_extension().generic_string()][pair.golden.empty() ? 1 : 0].push_back(name);
+  for (const auto& [stem, names] : single) {
+    if (names[0].size() != 1 || names[1].size() != 1) continue;
+    pairs[names[0].front()].candidate = pairs[names[1].front()].candidate;
+    pairs.erase(names[1].front());
+  }
 }
 
 }  // namespace
@@ -52,6 +74,7 @@ std::vector<FilePair> file_pairs(const std::string& golden, const std::string& c
     pairs[name].name = name;
     pairs[name].candidate = path;
   }
+  pair_by_stem(pairs);
   if (pairs.empty()) throw InputError(fmt::format("{}: expected pictures, got none, and none in {}", golden, candidate));
   std::vector<FilePair> result;
   for (auto& [name, pair] : pairs) result.push_back(std::move(pair));

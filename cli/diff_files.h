@@ -13,7 +13,8 @@ struct FilePair {
   std::string golden, candidate;  ///< empty: missing
 };
 
-/// Two files, or the pictures below two folders (.png .jpg .jpeg .tif .tiff .exr, any case) by their relative names, sorted. UsageError where
+/// Two files, or the pictures below two folders (.png .jpg .jpeg .tif .tiff .exr, any case) by their relative names, sorted; where a name has
+/// no other half, by the name without its ending. The textures beside a FILE.draws (STEM.0.png) are no pictures. UsageError where
 /// one is a folder and the other a file; InputError where a folder cannot be read or neither holds a picture.
 [[nodiscard]] std::vector<FilePair> file_pairs(const std::string& golden, const std::string& candidate);
 

@@ -1,11 +1,10 @@
 #include "validation/diagnosis.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "validation/mistakes.h"
 
 namespace etalon::validation {
 
@@ -31,61 +30,54 @@ std::vector<Texel> sampled(const Image& classes, std::uint64_t count, std::size_
   return texels;
 }
 
+// Texels that show at once whether a mistake is worth all of them: a share of one half is seen below kPilotShare once in ten million.
+constexpr std::size_t kPilotTexels = 512;
+constexpr double kPilotShare = 0.38;
+// A last resort is asked only where what was asked before explains less than this.
+constexpr double kNearlyAll = 0.98;
+
 class Trial {
  public:
   Trial(std::span<const Image> golden, std::span<const Image> candidate, std::vector<Texel> texels)
-      : candidate_(candidate), texels_(std::move(texels)), nothing_(golden.size()) {}
+      : candidate_(candidate), texels_(std::move(texels)), nothing_(golden.size()) {
+    const std::size_t step = std::max<std::size_t>(1, texels_.size() / kPilotTexels);
+    for (std::size_t i = 0; i < texels_.size(); i += step) pilot_.push_back(texels_[i]);
+  }
 
-  // Share of the texels that the candidate's bytes explain if this list, state and device were what was drawn.
-  double share(const DrawList& list, const Frame& frame, const DeviceModel& device) const {
-    const DiffInput input{list, frame, device, nothing_, candidate_};
-    constexpr std::size_t kGrain = 512;
-    std::vector<std::uint64_t> explained((texels_.size() + kGrain - 1) / kGrain, 0);
-    TexelExplainer::SharedGrid grid;
-    parallel_for_blocks(texels_.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-      TexelExplainer explainer(input, grid);
-      for (std::size_t i = begin; i < end; ++i) {
-        explained[begin / kGrain] += explainer.explain(texels_[i].x, texels_[i].y).texel_class <= TexelClass::tie;
-      }
-    });
-    std::uint64_t sum = 0;
-    for (const std::uint64_t n : explained) sum += n;
-    return static_cast<double>(sum) / static_cast<double>(texels_.size());
+  // Share of the texels that the candidate's bytes explain if one of these drawings was what was made; of the pilot's where that is too small.
+  double share(const Mistake& mistake) const {
+    std::vector<Image> read;
+    if (mistake.reading != CandidateReading::plain)
+      for (const Image& image : candidate_) read.push_back(read_as(image, mistake.reading));
+    const std::span<const Image> candidate = read.empty() ? candidate_ : std::span<const Image>(read);
+    if (pilot_.size() < texels_.size()) {
+      const double seen = share_of(pilot_, mistake, candidate);
+      if (seen < kPilotShare) return seen;
+    }
+    return share_of(texels_, mistake, candidate);
   }
 
  private:
+  double share_of(const std::vector<Texel>& texels, const Mistake& mistake, std::span<const Image> candidate) const {
+    std::vector<std::uint8_t> explained(texels.size(), 0);
+    for (const auto& make : mistake.alternatives) {
+      const SupposedDrawing drawing = make();
+      const DiffInput input{drawing.list, drawing.frame, drawing.device, nothing_, candidate};
+      TexelExplainer::SharedGrid grid;
+      parallel_for_blocks(texels.size(), 256, [&](std::size_t begin, std::size_t end) {
+        TexelExplainer explainer(input, grid);
+        for (std::size_t i = begin; i < end; ++i)
+          if (explained[i] == 0) explained[i] = explainer.explain(texels[i].x, texels[i].y).texel_class <= TexelClass::tie ? 1 : 0;
+      });
+    }
+    const auto count = std::count(explained.begin(), explained.end(), std::uint8_t{1});
+    return static_cast<double>(count) / static_cast<double>(texels.size());
+  }
+
   std::span<const Image> candidate_;
-  std::vector<Texel> texels_;
+  std::vector<Texel> texels_, pilot_;
   std::vector<Image> nothing_;  // no golden: the explainer finds the visible triangle itself
 };
-
-// A copy with every vertex's uv changed, by the size of the image that its draw looks up at uv. Vertices are unshared first.
-template <class Change>
-DrawList with_uv(const DrawList& list, Change&& change) {
-  DrawList out = list;
-  out.vertices.clear();
-  for (std::uint32_t t = 0; t < list.triangles.size(); ++t) {
-    const Draw& draw = list.draw_of(t);
-    const std::uint32_t image = draw.shading == Shading::indexed ? draw.indexing_map : draw.texture;
-    for (std::size_t k = 0; k < 3; ++k) {
-      RasterVertex v = list.vertices[list.triangles[t][k]];
-      if (draw.shading != Shading::vertex_color) change(v.uv, *list.images[image]);
-      out.triangles[t][k] = static_cast<std::uint32_t>(out.vertices.size());
-      out.vertices.push_back(v);
-    }
-  }
-  return out;
-}
-
-template <class Change>
-DrawList with_samplers(const DrawList& list, Change&& change) {
-  DrawList out = list;
-  for (Draw& draw : out.draws) {
-    change(draw.sampler);
-    change(draw.map_sampler);
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -98,67 +90,39 @@ std::vector<Hypothesis> diagnose(const DrawList& list, const Frame& frame, const
   std::vector<Hypothesis> found;
   if (count == 0) return found;
   const Trial trial(golden, candidate, sampled(diff.class_image, count, options.sample_limit));
-  // Fill rule and sub-texel rounding touch only samples near an edge: a handful is what they leave. The others change nearly every texel,
-  // so that a handful speaks against them.
-  const auto touches_few = [](const std::string& name) { return name.rfind("fill rule", 0) == 0 || name.rfind("sub-texel", 0) == 0; };
-  const auto ask = [&](const std::string& name, const DrawList& other_list, const Frame& other_frame, const DeviceModel& other_device) {
-    const double share = trial.share(other_list, other_frame, other_device);
-    if (share >= kNamedShare) found.push_back({name, share});
-  };
-
-  for (const FillRule rule : {FillRule::left_ymin, FillRule::left_ymax, FillRule::right_ymin, FillRule::right_ymax}) {
-    if (rule == frame.state.fill_rule) continue;
-    Frame other = frame;
-    other.state.fill_rule = rule;
-    ask("fill rule " + to_string(rule), list, other, device);
-  }
+  std::vector<Mistake> mistakes = usual_mistakes(list, frame, device);
   if (options.scene_with_snap) {
     for (const SnapRounding snap :
          {SnapRounding::nearest_even, SnapRounding::half_up, SnapRounding::half_away, SnapRounding::toward_zero, SnapRounding::floor}) {
       if (snap == frame.state.snap) continue;
-      Frame other = frame;
-      other.state.snap = snap;
-      ask("sub-texel rounding " + to_string(snap), options.scene_with_snap(snap), other, device);
+      const auto make = [&, snap] {
+        SupposedDrawing drawing{options.scene_with_snap(snap), frame, device};
+        drawing.frame.state.snap = snap;
+        return drawing;
+      };
+      mistakes.push_back({"sub-texel rounding " + to_string(snap), {make}, CandidateReading::plain, true});
     }
   }
-  const bool textured = std::any_of(list.draws.begin(), list.draws.end(), [](const Draw& d) { return d.shading != Shading::vertex_color; });
-  if (textured) {
-    for (const int axis : {0, 1}) {
-      for (const float half : {0.5f, -0.5f}) {
-        ask(fmt::format("texture coordinate shifted by {}1/2 texel in {}", half > 0 ? '+' : '-', axis == 0 ? 'u' : 'v'),
-            with_uv(list, [&](Vec2f& uv,
-                              const Image& image) { uv[axis] += half / static_cast<float>(axis == 0 ? image.width() : image.height()); }),
-            frame, device);
-      }
+  // Fill rule and sub-texel rounding touch only samples near an edge: a handful is what they leave. The others change nearly every texel,
+  // so that a handful speaks against them.
+  bool edges_explain = false;
+  double best = 0;
+  for (const Mistake& mistake : mistakes) {
+    if (mistake.last_resort && best >= kNearlyAll) continue;
+    double share = 0;
+    try {
+      share = trial.share(mistake);
+    } catch (const InputError&) {
+      continue;  // such a drawing is beyond the contract's ranges: it cannot have been made
     }
-    for (const float half : {0.5f, -0.5f}) {
-      ask(fmt::format("texture coordinate shifted by {}1/2 texel in u and v", half > 0 ? '+' : '-'),
-          with_uv(list,
-                  [&](Vec2f& uv, const Image& image) {
-                    uv += Vec2f(half / static_cast<float>(image.width()), half / static_cast<float>(image.height()));
-                  }),
-          frame, device);
-    }
-    ask("v flipped", with_uv(list, [](Vec2f& uv, const Image&) { uv.y = 1 - uv.y; }), frame, device);
-    for (const Wrap wrap : {Wrap::clamp, Wrap::repeat, Wrap::mirrored_repeat}) {
-      ask("wrap " + to_string(wrap), with_samplers(list, [&](Sampler& s) { s.wrap_u = s.wrap_v = wrap; }), frame, device);
-    }
-    for (const Filter filter : {Filter::nearest, Filter::linear}) {
-      ask("filter " + to_string(filter), with_samplers(list, [&](Sampler& s) { s.filter = filter; }), frame, device);
-    }
+    if (share < kNamedShare) continue;
+    found.push_back({mistake.name, share});
+    if (share > best) edges_explain = mistake.touches_few;
+    best = std::max(best, share);
   }
-  DeviceModel truncating = device;
-  truncating.unorm_toward_zero = true;
-  ask("unorm stored toward zero", list, frame, truncating);
-  Frame other_half = frame;
-  const bool was_nearest = frame.state.half_rounding == HalfRounding::nearest_even;
-  other_half.state.half_rounding = was_nearest ? HalfRounding::toward_zero : HalfRounding::nearest_even;
-  ask(was_nearest ? "half stored toward zero" : "half stored to nearest even", list, other_half, device);
-
   std::stable_sort(found.begin(), found.end(),
                    [](const Hypothesis& a, const Hypothesis& b) { return a.explained_share > b.explained_share; });
   const double few = std::max(16.0, options.isolated_share * static_cast<double>(diff.class_image.texel_count()));
-  const bool edges_explain = !found.empty() && touches_few(found.front().name) && found.front().explained_share >= 0.5;
   if (static_cast<double>(count) <= few && !edges_explain) found.insert(found.begin(), {"isolated wrong bytes", 1.0});
   return found;
 }

@@ -1,5 +1,5 @@
 // What went wrong: unexplained texels are re-evaluated under the usual mistakes of a pipeline, and the mistake that explains most is named.
-// Does: fill rule, sub-texel rounding (where the caller can make the scene again), half-texel shifts, flipped v, wrap, filter, storage rounding.
+// Does: the mistakes of mistakes.h, and sub-texel rounding where the caller can make the scene again.
 // Does not: draw; it asks the diff's own evaluation, so it needs no renderer and costs little more than the unexplained texels.
 #pragma once
 
@@ -25,7 +25,7 @@ struct DiagnosisOptions {
   double isolated_share = 1e-5;
 };
 
-/// Hypotheses sorted by share, the best first (ties: the order of the list above); those which explain less than half are left out.
+/// Hypotheses sorted by share, the best first (ties: the order of usual_mistakes()); those which explain less than half are left out.
 /// Empty where nothing is unexplained or nothing explains half of it. `diff` must hold its class image (InputError).
 [[nodiscard]] std::vector<Hypothesis> diagnose(const DrawList& list, const Frame& frame, const DeviceModel& device,
                                                std::span<const Image> golden, std::span<const Image> candidate, const DiffResult& diff,

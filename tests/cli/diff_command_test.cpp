@@ -142,6 +142,15 @@ TEST_CASE("diff: folders by relative name; what is missing fails, what cannot be
   CHECK(document["jobs"][1]["status"] == "only_candidate");
   CHECK(document["jobs"][2]["status"] == "only_golden");
   CHECK(document["jobs"][3]["job"] == "sub/b.png");
+  // new.tif also takes new.png; a texture beside a FILE.draws is no picture.
+  io::write_image(folder.path() / "g/new.tif", io::read_image(folder.path() / "c/new.png"));
+  write_grey(folder.path() / "g/drawn.0.png", 100);
+  folder.file("g/drawn.draws", "any");
+  const json paired = diff_document(folder, {"g", "c"}, 2);
+  REQUIRE(paired["jobs"].size() == 4);
+  CHECK(paired["jobs"][1]["job"] == "new.tif");
+  CHECK(paired["jobs"][1]["status"] == "compared");
+  CHECK(paired["jobs"][2]["status"] == "only_golden");
   folder.file("c/a.png", "not a picture");
   CHECK(diff_document(folder, {"g", "c"}, 4)["jobs"][0]["status"] == "unreadable");
   check_refused({"diff", "empty", "empty"}, 4, folder, "expected pictures");
@@ -168,7 +177,10 @@ TEST_CASE("diff --device: classes by the draws that the golden names") {
 
   // The top row of a picture first: every texel of the square is elsewhere.
   write_candidate(folder, "flipped.png", [](Image& image) { image = flipped_rows(image); });
-  CHECK(diff(folder, {"golden.exr", "flipped.png", "--device", "llvmpipe"}).exit_code == 2);
+  const json flipped = diff_document(folder, {"golden.exr", "flipped.png", "--device", "vulkan:8:12"}, 2);
+  CHECK(flipped["jobs"][0]["causes"][0]["name"] == "picture upside down");
+  CHECK(flipped["jobs"][0]["causes"][0]["explained_share"].get<double>() > 0.98);
+  CHECK(flipped["jobs"][0]["patterns"].empty());
 }
 
 TEST_CASE("diff --device: what OpenGL draws of the golden's draws is explained") {
@@ -257,7 +269,8 @@ TEST_CASE("diff: what the command line cannot mean") {
   check_refused({"diff", "a.png"}, 64, folder, "candidate");
   check_refused({"diff", "a.png", "a.png", "--device", "glide"}, 64, folder, "--device: expected contract");
   check_refused({"diff", "a.png", "a.png", "--device", "vulkan:3"}, 64, folder, "vulkan:BITS");
-  check_refused({"diff", "a.png", "a.png", "--device", "vulkan:x"}, 64, folder, "vulkan:BITS");
+  for (const char* device : {"vulkan:x", "vulkan:8:", "vulkan:8:3", "vulkan:8:25", "vulkan::8"})
+    check_refused({"diff", "a.png", "a.png", "--device", device}, 64, folder, "vulkan:BITS");
   check_refused({"diff", "a.png", "a.png", "--draws", "a.draws"}, 64, folder, "--draws needs --device");
   check_refused({"diff", "a.png", "a.png", "--waivers", "w.json"}, 64, folder, "--waivers needs --device");
   check_refused({"diff", "a.png", "a.png", "-od"}, 64, folder, "--od needs -o");

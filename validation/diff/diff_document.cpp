@@ -62,6 +62,9 @@ Json to_json(const PairResult& pair) {
                       {"proven", pair.bounds_proven},
                       {"by_draws", !pair.draws_path.empty()}};
     json["diagnosis"] = pair.page.diagnosis;
+    json["causes"] = Json::array();
+    for (const NamedCause& cause : pair.page.causes) json["causes"].push_back({{"name", cause.name}, {"explained_share", cause.share}});
+    json["patterns"] = pair.patterns;
     json["worst"] = Json::array();
     for (const WorstTexel& t : pair.page.worst)
       json["worst"].push_back({{"x", t.x},

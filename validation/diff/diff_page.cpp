@@ -13,17 +13,40 @@ namespace {
 
 struct Banner {
   const char *css, *seal;
-  std::string headline;
+  std::string headline, reason;
 };
+
+// What one pair comes down to, in a sentence.
+std::string reason(const PairResult& pair) {
+  if (pair.status != PairStatus::compared) return pair.problem + ".";
+  if (pair.pixels.differing == 0) return "Every value is the same.";
+  if (pair.device.empty())
+    return fmt::format("{} of {} texels differ, {} of them by more than the threshold.", grouped(pair.pixels.differing),
+                       grouped(pair.pixels.pixels), grouped(pair.pixels.fail.over));
+  std::string text =
+      pair.page.tally.unexplained > 0
+          ? fmt::format("{} of {} texels are unexplained", grouped(pair.page.tally.unexplained), grouped(pair.pixels.pixels))
+          : fmt::format("{} of {} texels differ, each as {} may", grouped(pair.pixels.differing), grouped(pair.pixels.pixels), pair.device);
+  if (!pair.page.causes.empty())
+    text += fmt::format("; {:.1f} % of them are what this gives: {}", 100 * pair.page.causes.front().share, pair.page.causes.front().name);
+  else if (!pair.patterns.empty())
+    text += "; " + pair.patterns.front();
+  if (pair.unproven_ties > 0) text += fmt::format("; {} perhaps a tie, not proven", grouped(pair.unproven_ties));
+  return text + ".";
+}
 
 Banner banner(const std::vector<PairResult>& pairs) {
   std::size_t wrong = 0;
   for (const PairResult& pair : pairs) wrong += pair.verdict >= PairVerdict::failure ? 1 : 0;
+  const bool single = pairs.size() == 1;
+  const std::string why = single ? reason(pairs.front()) : "";
   switch (worst_verdict(pairs)) {
-    case PairVerdict::pass: return {"agreed", "=", pairs.size() == 1 ? "The candidate passes." : "All candidates pass."};
-    case PairVerdict::warning: return {"not_compared", "–", "No failure, with warnings."};
-    default: return {"failed", "≠", fmt::format("{} of {} candidates {}.", wrong, pairs.size(), wrong == 1 ? "fails" : "fail")};
+    case PairVerdict::pass: return {"agreed", "=", single ? "The candidate passes." : "All candidates pass.", why};
+    case PairVerdict::warning: return {"not_compared", "–", "No failure, with warnings.", why};
+    default: break;
   }
+  const std::string several = fmt::format("{} of {} candidates {}.", wrong, pairs.size(), wrong == 1 ? "fails" : "fail");
+  return {"failed", "≠", single ? "The candidate fails." : several, why};
 }
 
 std::string table(const std::vector<PairResult>& pairs) {
@@ -70,8 +93,8 @@ std::string diff_page(const std::vector<PairResult>& pairs, const PixelThreshold
       "<button id=\"theme\" type=\"button\" hidden>light / dark</button></div></header><main>";
   html += fmt::format(
       "<section class=\"verdict {}\" aria-label=\"Verdict\"><div class=\"words\"><div class=\"verdict-head\"><div class=\"seal\" "
-      "aria-hidden=\"true\">{}</div><div><strong>{}</strong></div></div></div></section>",
-      words.css, words.seal, escaped(words.headline));
+      "aria-hidden=\"true\">{}</div><div><strong>{}</strong>{}</div></div></div></section>",
+      words.css, words.seal, escaped(words.headline), words.reason.empty() ? "" : "<p>" + escaped(words.reason) + "</p>");
   html += table(pairs);
   for (std::size_t i = 0; i < pairs.size(); ++i) html += pair_section(pairs[i], thresholds, i);
   html += fmt::format(

@@ -10,7 +10,9 @@
 
 #include "core/base/error.h"
 #include "core/io/draws_file.h"
+#include "validation/diff/defect_patterns.h"
 #include "validation/diff/picture.h"
+#include "validation/diff/worst_unexplained.h"
 #include "validation/probe/probe_document.h"
 #include "validation/report/json_report.h"
 #include "validation/verify/draw_list_hash.h"
@@ -135,9 +137,19 @@ Image classify_by_draws(PairResult& result, Picture& golden, const Picture& cand
   asked.worst_count = options.worst_count;
   asked.picture_px = std::max(options.picture_px, 1);
   const DeviceModel& model = options.device->model;
-  const DiffResult diff = classify_case(result.page, pair, draws.list, frame, model, asked, mark_reach(frame, asked.picture_px));
+  const DiffResult diff =
+      classify_case(result.page, pair, draws.list, frame, model, asked, options.picture_px > 0 ? mark_reach(frame, options.picture_px) : 0);
   result.bounds_proven = model.origin == BoundOrigin::exact || model.origin == BoundOrigin::derived;
   if (options.texel) result.texel = explain_texel(draws.list, frame, model, pair.cpu, pair.gl, options.texel->x, options.texel->y).sentence;
+  if (!diff.agreed()) {
+    // A mistake that explains nearly all of them says more than the place does.
+    if (result.page.causes.empty() || result.page.causes.front().share < 0.9)
+      result.patterns = defect_patterns(draws.list, draws.frame, diff.class_image, pair.cpu.front(), pair.gl.front(), exact);
+    for (const std::string& pattern : result.patterns) result.page.diagnosis += " Pattern: " + pattern + ".";
+    DiffResult shown = diff;
+    shown.worst = worst_unexplained(diff, pair, draws.list, frame, model, options.worst_count);
+    result.page.worst = worst_texels(shown, pair, frame.targets, options.worst_count);
+  }
   golden.color = std::move(pair.cpu.front());
   return diff.class_image;
 }
@@ -236,8 +248,7 @@ PairVerdict verdict_of(const PixelComparison& pixels) {
 }
 
 void compare(PairResult& result, Renderer& exact, const PairOptions& options) {
-  Picture golden = read_picture(result.golden_path);
-  const Picture candidate = read_picture(result.candidate_path);
+  auto [golden, candidate] = read_pictures(result.golden_path, result.candidate_path);
   result.golden_sha256 = golden.sha256, result.candidate_sha256 = candidate.sha256;
   const Image &a = golden.color, &b = candidate.color;
   result.page.width = a.width(), result.page.height = a.height();
@@ -328,16 +339,24 @@ DiffDevice device_of_name(const std::string& name) {
     return device;
   }
   if (name.starts_with("vulkan:")) {
-    const std::string bits = name.substr(7);
-    const bool digits = !bits.empty() && bits.size() <= 2 && bits.find_first_not_of("0123456789") == std::string::npos;
-    const int value = digits ? std::stoi(bits) : 0;
-    if (value >= 4 && value <= 16)
-      return {specified_model(name, 5, 4,
-                              "Vulkan 1.3, Precision of Individual Operations: within 2.5 ULP; Required Limits: subTexelPrecisionBits >= "
-                              "4; subPixelPrecisionBits as given"),
-              value};
+    const auto number = [](const std::string& text) {
+      const bool digits = !text.empty() && text.size() <= 2 && text.find_first_not_of("0123456789") == std::string::npos;
+      return digits ? std::stoi(text) : 0;
+    };
+    const std::size_t colon = name.find(':', 7);
+    const int bits = number(name.substr(7, colon - 7)), texel_bits = colon == std::string::npos ? 4 : number(name.substr(colon + 1));
+    if (bits >= 4 && bits <= 16 && texel_bits >= 4 && texel_bits <= 24)
+      return {specified_model(
+                  name, 5, texel_bits,
+                  fmt::format("Vulkan 1.3, Precision of Individual Operations: within 2.5 ULP; Required Limits: subPixelPrecisionBits {}, "
+                              "subTexelPrecisionBits {}",
+                              bits, texel_bits)),
+              bits};
   }
-  throw InputError(fmt::format("expected contract, llvmpipe, gl, d3d11 or vulkan:BITS with 4 to 16 sub-texel bits, got '{}'", name));
+  throw InputError(
+      fmt::format("expected contract, llvmpipe, gl, d3d11 or vulkan:BITS[:TEXELBITS] (4 to 16 sub-texel bits; 4 to 24 of texture "
+                  "coordinates), got '{}'",
+                  name));
 }
 
 DiffDevice device_of_probe(const std::string& path) {

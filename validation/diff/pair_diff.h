@@ -25,7 +25,8 @@ struct DiffDevice {
   std::string caveat = {};                         ///< one line for whoever relies on the result; may be empty
 };
 
-/// "contract", "llvmpipe", "gl", "d3d11", "vulkan:BITS" (sub-texel bits, 4 to 16). InputError for any other name.
+/// "contract", "llvmpipe", "gl", "d3d11", "vulkan:BITS[:TEXELBITS]" (sub-texel bits, 4 to 16; fractional bits of
+/// texture coordinates, 4 to 24). InputError for any other name.
 [[nodiscard]] DiffDevice device_of_name(const std::string& name);
 
 /// PROBE.json of `etalon probe`: bounds that were measured, times a factor (docs/probe.md). InputError as read_probe().
@@ -62,7 +63,8 @@ struct PairResult {
   std::string bounds;        ///< "derived: llvmpipe of …"
   std::string bound_origin;  ///< to_string(BoundOrigin)
   bool bounds_proven = false;
-  std::uint64_t unproven_ties = 0;  ///< in no other class
+  std::uint64_t unproven_ties = 0;    ///< in no other class
+  std::vector<std::string> patterns;  ///< where unexplained texels lie (defect_patterns.h)
   std::string note;
   std::string texel;  ///< the sentence that was asked for
   CaseResult page;    ///< tally (without unproven ties), worst texels, and pictures

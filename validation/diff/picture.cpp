@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
 
+#include "core/base/parallel.h"
 #include "core/base/sha256.h"
 #include "core/io/exr_file.h"
 #include "core/io/image_file.h"
@@ -21,16 +23,14 @@ bool has_channel(const io::ExrContent& content, const std::string& name) {
                      [&](const io::ExrLayer& layer) { return layer.channel_names.front() == name; });
 }
 
-}  // namespace
-
-Picture read_picture(const std::string& path) {
-  const io::FileBytes bytes = io::read_file(path);
-  Picture picture{.path = path, .sha256 = sha256_hex(bytes.bytes())};
-  if (!is_exr(bytes.bytes())) {
-    picture.color = io::decode_image(bytes.bytes(), path);
-    return picture;
+// What the bytes hold; the colours of a margins file are those of its colour channels.
+void decode(std::span<const std::byte> bytes, Picture& picture) {
+  const std::string& path = picture.path;
+  if (!is_exr(bytes)) {
+    picture.color = io::decode_image(bytes, path);
+    return;
   }
-  const io::ExrContent content = io::decode_exr(bytes.bytes(), path);
+  const io::ExrContent content = io::decode_exr(bytes, path);
   picture.attributes = content.attributes;
   if (has_channel(content, "id.triangle")) picture.ids = io::channels_image(content, {"id.triangle"}, path);
   if (has_channel(content, "Z")) picture.depth = io::channels_image(content, {"Z"}, path);
@@ -43,7 +43,35 @@ Picture read_picture(const std::string& path) {
     picture.color = picture.ids;
   else
     picture.color = io::color_image(content, path);
+}
+
+}  // namespace
+
+Picture read_picture(const std::string& path) {
+  const io::FileBytes bytes = io::read_file(path);
+  Picture picture{.path = path};
+  parallel_for(2, [&](std::size_t part) {
+    if (part == 0)
+      decode(bytes.bytes(), picture);
+    else
+      picture.sha256 = sha256_hex(bytes.bytes());
+  });
   return picture;
+}
+
+std::pair<Picture, Picture> read_pictures(const std::string& first, const std::string& second) {
+  std::array<Picture, 2> pictures;
+  std::array<std::exception_ptr, 2> errors;
+  parallel_for(2, [&](std::size_t side) {
+    try {
+      pictures[side] = read_picture(side == 0 ? first : second);
+    } catch (const std::exception&) {
+      errors[side] = std::current_exception();
+    }
+  });
+  for (const std::exception_ptr& error : errors)
+    if (error) std::rethrow_exception(error);
+  return {std::move(pictures[0]), std::move(pictures[1])};
 }
 
 }  // namespace etalon::validation

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "core/image/image.h"
 
@@ -19,5 +20,8 @@ struct Picture {
 
 /// InputError as read_image() and read_exr().
 [[nodiscard]] Picture read_picture(const std::string& path);
+
+/// Both at once. Where neither can be read, the first one's error.
+[[nodiscard]] std::pair<Picture, Picture> read_pictures(const std::string& first, const std::string& second);
 
 }  // namespace etalon::validation

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -29,12 +30,49 @@ double difference(double a, double b) {
   return std::abs(a - b);
 }
 
-// Whether both rows hold the same bytes of a format whose values cannot exceed 1: then nothing is to be added.
-bool same_bytes(const Image& a, const Image& b, int y) {
+// Formats whose equal bytes add nothing: their values cannot exceed 1, nor be NaN.
+bool is_unorm(const Image& a, const Image& b) {
   const ChannelType type = a.format().type;
-  if (a.format() != b.format() || (type != ChannelType::unorm8 && type != ChannelType::srgb8 && type != ChannelType::unorm16)) return false;
-  const std::size_t size = static_cast<std::size_t>(a.width()) * static_cast<std::size_t>(bytes_per_texel(a.format()));
-  return std::memcmp(a.texel(0, y), b.texel(0, y), size) == 0;
+  return a.format() == b.format() && (type == ChannelType::unorm8 || type == ChannelType::srgb8 || type == ChannelType::unorm16);
+}
+
+// A range of texels of a row.
+struct Run {
+  int begin = 0, end = 0;
+};
+
+// The next run of texels, from `x` on, that hold other bytes; begins at the row's end where there is none.
+template <class Texel>
+Run next_run(const std::byte* a, const std::byte* b, int x, int width) {
+  const auto differs = [&](int i) {
+    Texel p, q;
+    const std::size_t at = static_cast<std::size_t>(i) * sizeof(Texel);
+    std::memcpy(&p, a + at, sizeof(Texel));
+    std::memcpy(&q, b + at, sizeof(Texel));
+    return p != q;
+  };
+  // Equal stretches are passed over 64 texels at a time.
+  constexpr int kStride = 64;
+  while (x + kStride <= width && std::memcmp(a + static_cast<std::size_t>(x) * sizeof(Texel),
+                                             b + static_cast<std::size_t>(x) * sizeof(Texel), kStride * sizeof(Texel)) == 0)
+    x += kStride;
+  while (x < width && !differs(x)) ++x;
+  int end = x;
+  while (end < width && differs(end)) ++end;
+  return {x, end};
+}
+
+Run next_run(const Image& a, const Image& b, int x, int y) {
+  const std::byte *p = a.texel(0, y), *q = b.texel(0, y);
+  switch (bytes_per_texel(a.format())) {
+    case 1: return next_run<std::uint8_t>(p, q, x, a.width());
+    case 2: return next_run<std::uint16_t>(p, q, x, a.width());
+    case 3: return next_run<std::array<std::uint8_t, 3>>(p, q, x, a.width());
+    case 4: return next_run<std::uint32_t>(p, q, x, a.width());
+    case 6: return next_run<std::array<std::uint16_t, 3>>(p, q, x, a.width());
+    case 8: return next_run<std::uint64_t>(p, q, x, a.width());
+    default: return {x, a.width()};
+  }
 }
 
 class PixelState {
@@ -56,9 +94,9 @@ class PixelState {
   bool over_ = false, hard_ = false;
 };
 
-void compare_row(const double* a, const double* b, int width, int channels, const PixelThresholds& thresholds, RowSums& sums) {
+void compare_run(const double* a, const double* b, Run run, int channels, const PixelThresholds& thresholds, RowSums& sums) {
   PixelState fail(thresholds.fail, sums.fail), warn(thresholds.warn, sums.warn);
-  for (int x = 0; x < width; ++x) {
+  for (int x = run.begin; x < run.end; ++x) {
     bool differs = false;
     for (int c = 0; c < channels; ++c, ++a, ++b) {
       sums.largest = std::max({sums.largest, std::isfinite(*a) ? *a : 0, std::isfinite(*b) ? *b : 0});
@@ -84,6 +122,28 @@ void compare_row(const double* a, const double* b, int width, int channels, cons
   }
 }
 
+void run_values(const Image& image, Run run, int y, int channels, double* out) {
+  static const std::vector<double> kUnorm8 = [] {
+    std::vector<double> values(256);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i) / 255;
+    return values;
+  }();
+  const int own = image.format().channels;
+  const auto fill = [&](const auto* stored, const auto& value_of) {
+    for (int x = run.begin; x < run.end; ++x, stored += own, out += channels)
+      for (int c = 0; c < channels; ++c) out[c] = c < own ? value_of(stored[c]) : 0.0;
+  };
+  switch (image.format().type) {
+    case ChannelType::unorm8:
+    case ChannelType::srgb8: return fill(image.channels<std::uint8_t>(run.begin, y), [](std::uint8_t i) { return kUnorm8[i]; });
+    case ChannelType::unorm16: return fill(image.channels<std::uint16_t>(run.begin, y), [](std::uint16_t i) { return i / 65535.0; });
+    case ChannelType::half: return fill(image.channels<std::uint16_t>(run.begin, y), [](std::uint16_t bits) { return half_value(bits); });
+    case ChannelType::float32: return fill(image.channels<float>(run.begin, y), [](float value) { return double{value}; });
+    case ChannelType::uint32:
+      return fill(image.channels<std::uint32_t>(run.begin, y), [](std::uint32_t value) { return static_cast<double>(value); });
+  }
+}
+
 bool too_many(const PixelLimit& limit, const PixelCount& count, std::uint64_t pixels, std::uint64_t allowed) {
   const bool over = static_cast<double>(count.over) > limit.percent / 100 * static_cast<double>(pixels) && count.over > allowed;
   return over || count.over_hard > allowed;
@@ -101,27 +161,7 @@ double passing_relative(double quotient) { return quotient == 0 ? 0 : std::nexta
 
 }  // namespace
 
-void row_values(const Image& image, int y, int channels, double* out) {
-  static const std::vector<double> kUnorm8 = [] {
-    std::vector<double> values(256);
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i) / 255;
-    return values;
-  }();
-  const int own = image.format().channels;
-  const auto fill = [&](const auto* stored, const auto& value_of) {
-    for (int x = 0; x < image.width(); ++x, stored += own, out += channels)
-      for (int c = 0; c < channels; ++c) out[c] = c < own ? value_of(stored[c]) : 0.0;
-  };
-  switch (image.format().type) {
-    case ChannelType::unorm8:
-    case ChannelType::srgb8: return fill(image.channels<std::uint8_t>(0, y), [](std::uint8_t i) { return kUnorm8[i]; });
-    case ChannelType::unorm16: return fill(image.channels<std::uint16_t>(0, y), [](std::uint16_t i) { return i / 65535.0; });
-    case ChannelType::half: return fill(image.channels<std::uint16_t>(0, y), [](std::uint16_t bits) { return half_value(bits); });
-    case ChannelType::float32: return fill(image.channels<float>(0, y), [](float value) { return double{value}; });
-    case ChannelType::uint32:
-      return fill(image.channels<std::uint32_t>(0, y), [](std::uint32_t value) { return static_cast<double>(value); });
-  }
-}
+void row_values(const Image& image, int y, int channels, double* out) { run_values(image, {0, image.width()}, y, channels, out); }
 
 PixelComparison compare_pixels(const Image& a, const Image& b, const PixelThresholds& thresholds) {
   if (a.empty() || b.empty() || a.width() != b.width() || a.height() != b.height())
@@ -130,15 +170,19 @@ PixelComparison compare_pixels(const Image& a, const Image& b, const PixelThresh
   result.pixels = a.texel_count();
   result.channels = std::max(a.format().channels, b.format().channels);
   std::vector<RowSums> rows(static_cast<std::size_t>(a.height()));
+  const bool unorm = is_unorm(a, b);
   parallel_for_blocks(rows.size(), 16, [&](std::size_t begin, std::size_t end) {
     const std::size_t values = static_cast<std::size_t>(a.width()) * static_cast<std::size_t>(result.channels);
     std::vector<double> row_a(values), row_b(values);
     for (std::size_t row = begin; row < end; ++row) {
       const int y = static_cast<int>(row);
-      if (same_bytes(a, b, y)) continue;
-      row_values(a, y, result.channels, row_a.data());
-      row_values(b, y, result.channels, row_b.data());
-      compare_row(row_a.data(), row_b.data(), a.width(), result.channels, thresholds, rows[row]);
+      for (Run run{0, 0}; run.end < a.width();) {
+        run = unorm ? next_run(a, b, run.end, y) : Run{0, a.width()};
+        if (run.begin == run.end) break;
+        run_values(a, run, y, result.channels, row_a.data());
+        run_values(b, run, y, result.channels, row_b.data());
+        compare_run(row_a.data(), row_b.data(), run, result.channels, thresholds, rows[row]);
+      }
     }
   });
   RowSums sum;

@@ -53,7 +53,9 @@ std::string side_text(const DrawnPair& pair, const std::vector<Image>& side, con
   std::string text;
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (same_bytes(pair, t, x, y)) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", short_name(targets[t].content), texel_text(side[t], x, y));
+    // Where there is one target, whose value it is goes without saying.
+    const std::string name = targets.size() == 1 ? "" : short_name(targets[t].content) + std::string(" ");
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", name, texel_text(side[t], x, y));
   }
   return text;
 }

@@ -38,23 +38,30 @@ std::string broken_decisions(const DiffResult& diff) {
   for (std::size_t cause = 0; cause < kCauseCount; ++cause) {
     if (diff.unexplained_by[cause] == 0) continue;
     const std::string name = cause == 0 ? "cause not told apart" : to_string(static_cast<Cause>(cause));
-    text += fmt::format("{}{}: {} texels", text.empty() ? "" : "; ", name, diff.unexplained_by[cause]);
+    text += fmt::format("{}{}: {} texel{}", text.empty() ? "" : "; ", name, diff.unexplained_by[cause],
+                        diff.unexplained_by[cause] == 1 ? "" : "s");
   }
   return text;
 }
 
-std::string diagnosis_of(const DiffResult& diff, const DrawnPair& pair, const DrawList& list, const Frame& frame, const DeviceModel& model,
-                         const std::function<DrawList(SnapRounding)>& scene_with_snap) {
-  if (diff.agreed()) return "";
+std::vector<NamedCause> causes_of(const DiffResult& diff, const DrawnPair& pair, const DrawList& list, const Frame& frame,
+                                  const DeviceModel& model, const std::function<DrawList(SnapRounding)>& scene_with_snap) {
+  std::vector<NamedCause> causes;
+  if (diff.agreed()) return causes;
   DiagnosisOptions asked;
   asked.scene_with_snap = scene_with_snap;
-  const std::vector<Hypothesis> hypotheses = diagnose(list, frame, model, pair.cpu, pair.gl, diff, asked);
+  for (const Hypothesis& h : diagnose(list, frame, model, pair.cpu, pair.gl, diff, asked)) causes.push_back({h.name, h.explained_share});
+  return causes;
+}
+
+std::string diagnosis_of(const DiffResult& diff, const std::vector<NamedCause>& causes) {
+  if (diff.agreed()) return "";
   std::string text = broken_decisions(diff);
-  if (hypotheses.empty()) return text + ". No usual mistake explains them.";
-  const std::size_t shown = std::min<std::size_t>(hypotheses.size(), 3);
+  if (causes.empty()) return text + ". No usual mistake explains them.";
+  const std::size_t shown = std::min<std::size_t>(causes.size(), 3);
   text += ". Looks like ";
   for (std::size_t i = 0; i < shown; ++i)
-    text += fmt::format("{}{} (explains {:.1f} % of them)", i > 0 ? ", or " : "", hypotheses[i].name, 100 * hypotheses[i].explained_share);
+    text += fmt::format("{}{} (explains {:.1f} % of them)", i > 0 ? ", or " : "", causes[i].name, 100 * causes[i].share);
   return text + ".";
 }
 
@@ -73,7 +80,8 @@ DiffResult classify_case(CaseResult& item, const DrawnPair& pair, const DrawList
   constexpr int kCandidates = 256;  // enough to find texels of each class among them
   DiffResult diff = diff_images(list, frame, model, pair.cpu, pair.gl, {.worst_count = kCandidates, .keep_class_image = true});
   item.tally = tally_of(diff.counts);
-  item.diagnosis = diagnosis_of(diff, pair, list, frame, model, scene_with_snap);
+  item.causes = causes_of(diff, pair, list, frame, model, scene_with_snap);
+  item.diagnosis = diagnosis_of(diff, item.causes);
   item.worst = worst_texels(diff, pair, frame.targets, options.worst_count);
   item.class_picture = reduced(class_picture(pair.cpu_picture.front(), diff.class_image, reach), options.picture_px);
   return diff;

@@ -65,6 +65,12 @@ struct SideNames {
   std::string exact_short = "CPU", device_short = "GL";
 };
 
+/// A usual mistake, and the share of the unexplained texels that it explains.
+struct NamedCause {
+  std::string name;  ///< "filter linear"
+  double share = 0;  ///< 0..1
+};
+
 /// One scene: a model seen from one view with one sampler.
 struct CaseResult {
   SideNames sides;
@@ -78,10 +84,11 @@ struct CaseResult {
   std::uint64_t covered = 0;    ///< texels that show a triangle on the exact side
   std::string skipped;          ///< why the device could not draw it; empty where it could; else nothing of it was compared
   double cpu_seconds = 0, gl_seconds = 0, compare_seconds = 0;
-  ClassTally tally;               ///< all 0 where there is no device
-  std::string diagnosis;          ///< what pattern the unexplained texels show; empty where there are none
-  std::vector<WorstTexel> worst;  ///< worst first
-  Image class_picture;            ///< the CPU's colours in faint grey, marks of class_color() over them; empty where there is no device
+  ClassTally tally;                ///< all 0 where there is no device
+  std::string diagnosis;           ///< what pattern the unexplained texels show; empty where there are none
+  std::vector<NamedCause> causes;  ///< the best first
+  std::vector<WorstTexel> worst;   ///< worst first
+  Image class_picture;             ///< the CPU's colours in faint grey, marks of class_color() over them; empty where there is no device
   std::vector<TargetResult> targets;
   [[nodiscard]] std::string name() const { return model + ", " + view + ", " + sampling; }
 };
