@@ -86,7 +86,7 @@ TEST_CASE("--shader exact: every texel identical, no bound lent; the report name
   CHECK(result.exit_code == 0);
   const json document = json::parse(read_text(folder.path() / "etalon-report/verify.json"));
   CHECK(document["verdict"] == "agreed");
-  CHECK(document["total"]["identical"] == 8 * 96 * 64);
+  CHECK(document["total"]["identical"] == (8 + 6) * 96 * 64);
   CHECK(document["bounds"]["origin"] == "exact: docs/contract.md, version 1");
   CHECK(document["renderers"]["gl"].get<std::string>().find(", exact shader") != std::string::npos);
 
