@@ -9,6 +9,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "core/base/index_table.h"
 #include "core/io/input_error.h"
 #include "core/io/mesh_formats.h"
 #include "core/io/text_scan.h"
@@ -20,44 +21,23 @@ namespace {
 constexpr std::size_t kHeaderBytes = 84, kFacetBytes = 50;
 constexpr std::size_t kTextBytes = 1024;  // so much must be free of NUL for a file to be text
 
-/// The vertices so far, found again by their coordinates: open addressing, at most half full. The hash decides where is looked, never the order.
+/// The vertices so far, found again by their coordinates.
 class Welder {
  public:
-  explicit Welder(std::vector<Vec3f>& positions) : positions_(positions), table_(std::size_t{1} << 10, kEmpty) {}
+  explicit Welder(std::vector<Vec3f>& positions) : positions_(positions) {}
 
   std::uint32_t index_of(const Vec3f& p) {
-    if (2 * positions_.size() >= table_.size()) grow();
-    const std::size_t slot = slot_of(p);
-    if (table_[slot] == kEmpty) {
-      table_[slot] = static_cast<std::uint32_t>(positions_.size());
-      positions_.push_back(p);
-    }
-    return table_[slot];
+    const auto bits = [](float x) { return x == 0 ? 0u : std::bit_cast<std::uint32_t>(x); };
+    const auto next = static_cast<std::uint32_t>(positions_.size());
+    const std::uint32_t found = table_.find_or_add(hash_words<3>({bits(p.x), bits(p.y), bits(p.z)}), next,
+                                                   [&](std::uint32_t other) { return positions_[other] == p; });
+    if (found == next) positions_.push_back(p);
+    return found;
   }
 
  private:
-  static constexpr std::uint32_t kEmpty = UINT32_MAX;
-  static std::uint32_t bits(float x) { return x == 0 ? 0u : std::bit_cast<std::uint32_t>(x); }
-
-  // The finalizer of MurmurHash3 over the three words.
-  [[nodiscard]] std::size_t slot_of(const Vec3f& p) const {
-    std::uint64_t h = 0;
-    for (int k = 0; k < 3; ++k) {
-      h = (h ^ bits(p[k])) * 0xff51afd7ed558ccdu;
-      h ^= h >> 33;
-    }
-    h *= 0xc4ceb9fe1a85ec53u;
-    std::size_t slot = h >> (64 - std::countr_zero(table_.size()));
-    while (table_[slot] != kEmpty && !(positions_[table_[slot]] == p)) slot = (slot + 1) & (table_.size() - 1);
-    return slot;
-  }
-  void grow() {
-    table_.assign(2 * table_.size(), kEmpty);
-    for (std::uint32_t v = 0; v < positions_.size(); ++v) table_[slot_of(positions_[v])] = v;
-  }
-
   std::vector<Vec3f>& positions_;
-  std::vector<std::uint32_t> table_;
+  IndexTable table_;
 };
 
 std::uint32_t count_in(std::string_view text) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "core/base/error.h"
+#include "core/base/index_table.h"
 
 namespace etalon {
 
@@ -20,33 +21,17 @@ struct Classes {
   std::vector<std::uint32_t> first;
 };
 
-// The finalizer of MurmurHash3 over all words: one that differs in one bit only goes elsewhere.
-template <std::size_t N>
-std::uint64_t hash_of(const std::array<std::uint32_t, N>& key) {
-  std::uint64_t h = 0;
-  for (const std::uint32_t word : key) {
-    h = (h ^ word) * 0xff51afd7ed558ccdu;
-    h ^= h >> 33;
-  }
-  return h * 0xc4ceb9fe1a85ec53u;
-}
-
-// Open addressing in a table at most half full. The hash decides where is looked, never the order: classes are numbered as they appear.
 template <class Key>
 Classes classes_of_equal(const std::vector<Key>& keys) {
-  constexpr std::uint32_t kEmpty = UINT32_MAX;
-  const int bits = std::bit_width(2 * keys.size());
-  std::vector<std::uint32_t> table(std::size_t{1} << bits, kEmpty);
   Classes result;
   result.class_of.reserve(keys.size());
+  IndexTable table;
   for (std::uint32_t i = 0; i < keys.size(); ++i) {
-    std::size_t slot = bits == 0 ? 0 : hash_of(keys[i]) >> (64 - bits);
-    while (table[slot] != kEmpty && keys[result.first[table[slot]]] != keys[i]) slot = (slot + 1) & (table.size() - 1);
-    if (table[slot] == kEmpty) {
-      table[slot] = static_cast<std::uint32_t>(result.first.size());
-      result.first.push_back(i);
-    }
-    result.class_of.push_back(table[slot]);
+    const auto next = static_cast<std::uint32_t>(result.first.size());
+    const std::uint32_t found =
+        table.find_or_add(hash_words(keys[i]), next, [&](std::uint32_t other) { return keys[result.first[other]] == keys[i]; });
+    if (found == next) result.first.push_back(i);
+    result.class_of.push_back(found);
   }
   return result;
 }

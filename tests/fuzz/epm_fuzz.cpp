@@ -41,10 +41,6 @@ void repair(std::vector<std::byte>& file) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::span<const std::byte> bytes = bytes_of(data, size);
-  read(bytes);
-  std::vector<std::byte> repaired(bytes.begin(), bytes.end());
-  repair(repaired);
-  read(repaired);
-  return 0;
+  return read_and_read_repaired(
+      data, size, [](std::span<const std::byte> bytes) { read(bytes); }, repair);
 }

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/io/inputs.h"
@@ -43,6 +44,17 @@ inline void require(bool condition, const char* what) {
 }
 
 inline std::span<const std::byte> bytes_of(const std::uint8_t* data, std::size_t size) { return std::as_bytes(std::span(data, size)); }
+
+/// The bytes as they are, and once more with their checksums put right, so that damage gets past them.
+template <class Read, class Repair>
+int read_and_read_repaired(const std::uint8_t* data, std::size_t size, const Read& read, const Repair& repair) {
+  const std::span<const std::byte> bytes = bytes_of(data, size);
+  read(bytes);
+  std::vector<std::byte> repaired(bytes.begin(), bytes.end());
+  repair(repaired);
+  read(repaired);
+  return 0;
+}
 
 inline io::FileBytes file_bytes(std::span<const std::byte> bytes) {
   io::FileBytes file(bytes.size());

@@ -10,31 +10,15 @@
 #include "core/base/parallel.h"
 #include "core/procedural/swirl.h"
 #include "raster/cpu_renderer.h"
+#include "tests/validation/verify/tampered_renderer.h"
 
 using namespace etalon;
 using namespace etalon::validation;
+using Tampered = test::TamperedRenderer;
 
 namespace {
 
 constexpr int kSide = 96;
-
-/// The exact renderer, which draws something else.
-class Tampered : public Renderer {
- public:
-  explicit Tampered(std::function<void(DrawList&)> tamper = {}) : tamper_(std::move(tamper)) {}
-  [[nodiscard]] std::string name() const override { return "tampered"; }
-  [[nodiscard]] RasterState supported_state(const RasterState& wanted) const override { return wanted; }
-  [[nodiscard]] bool supports(const TargetSpec&) const override { return true; }
-  [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override {
-    DrawList other = list;
-    if (tamper_) tamper_(other);
-    return exact_.render(other, frame);
-  }
-
- private:
-  std::function<void(DrawList&)> tamper_;
-  raster::CpuRenderer exact_;
-};
 
 VerifyModel swirl_model(int faces = 512) {
   procedural::Model source = procedural::make_swirl({.faces = faces, .texture_size = 64});

@@ -8,29 +8,13 @@
 
 #include "core/base/parallel.h"
 #include "raster/cpu_renderer.h"
+#include "tests/validation/verify/tampered_renderer.h"
 
 using namespace etalon;
 using namespace etalon::validation;
+using Tampered = test::TamperedRenderer;
 
 namespace {
-
-/// The exact renderer, which draws something else.
-class Tampered : public Renderer {
- public:
-  explicit Tampered(std::function<void(DrawList&)> tamper = {}) : tamper_(std::move(tamper)) {}
-  [[nodiscard]] std::string name() const override { return "tampered"; }
-  [[nodiscard]] RasterState supported_state(const RasterState& wanted) const override { return wanted; }
-  [[nodiscard]] bool supports(const TargetSpec&) const override { return true; }
-  [[nodiscard]] std::vector<Image> render(const DrawList& list, const Frame& frame) override {
-    DrawList other = list;
-    if (tamper_) tamper_(other);
-    return exact_.render(other, frame);
-  }
-
- private:
-  std::function<void(DrawList&)> tamper_;
-  raster::CpuRenderer exact_;
-};
 
 VerifyOptions options_of(int side) {
   VerifyOptions options;
