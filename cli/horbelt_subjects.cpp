@@ -8,6 +8,7 @@
 #include "cli/model_input.h"
 #include "cli/study_subjects.h"
 #include "cli/terrain_input.h"
+#include "cli/terrain_view_option.h"
 #include "cli/usage_error.h"
 #include "core/procedural/alps.h"
 
@@ -46,6 +47,10 @@ class Loader {
     for (const std::string& warning : input.warnings) print_warning(dem + ": " + warning);
     HorbeltSubject subject = made(name, std::move(input.field), std::move(input.image));
     subject.inputs = {file_input(dem, "DEM"), file_input(image, "image")};
+    subject.joint_command = fmt::format("etalon joint {} {}", subject.inputs[0].name, subject.inputs[1].name);
+    if (options.grid) subject.joint_command += fmt::format(" --grid {}", *options.grid);
+    if (options.texture_size != 0) subject.joint_command += fmt::format(" --texture-size {}", options.texture_size);
+    if (options.spacing_m != TerrainOptions{}.spacing_m) subject.joint_command += fmt::format(" --spacing {}", options.spacing_m);
     return subject;
   }
 
@@ -57,6 +62,9 @@ class Loader {
     terrain::DemOptions dem;
     dem.dem_spacing = alps.spacing;
     HorbeltSubject subject = made("alps", terrain::make_height_field(alps.dem, dem).field, std::move(alps.texture));
+    subject.joint_command =
+        fmt::format("etalon make terrain --size {} --texture-size {} -o alps.tif && etalon joint alps.tif alps_color.png --spacing {}",
+                    how.size, how.texture_size, alps.spacing);
     subject.inputs = {
         {.name = "alps (procedural, heights)", .sha256 = alps.dem.sha256(), .path = "", .role = "DEM", .attribution = ""},
         {.name = "alps (procedural, image)", .sha256 = subject.image.sha256(), .path = "", .role = "image", .attribution = ""}};
@@ -77,21 +85,21 @@ class Loader {
   CallFiles& files_;
 };
 
-/// Letters, digits and dashes of a file's stem: names of files and rows.
-std::string stem_of(const std::string& path) {
-  std::string name = std::filesystem::path(path).stem().string();
-  for (char& c : name) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-    if (!is_plain) c = '-';
+std::string stem_of(const std::string& path) { return plain_name(std::filesystem::path(path).stem().string()); }
+
+void choose_views(HorbeltSubject& subject, const HorbeltSubjectOptions& options) {
+  for (const std::string& text : options.views) {
+    validation::NamedTerrainView view = chosen_terrain_view(text, options.size, options.frame, subject.field);
+    if (const std::string prefix = subject.name + "-"; view.name.size() > prefix.size() && view.name.starts_with(prefix))
+      view.name.erase(0, prefix.size());
+    for (const validation::NamedTerrainView& other : subject.views)
+      if (other.name == view.name)
+        throw UsageError(fmt::format("--view: two views of the name {}: {} and {}", view.name, other.title, view.title));
+    subject.views.push_back(std::move(view));
   }
-  return name;
 }
 
-}  // namespace
-
-std::vector<HorbeltSubject> load_horbelt_subjects(const HorbeltSubjectOptions& options, Console& console, CallFiles& files) {
-  Loader loader(options, console, files);
+std::vector<HorbeltSubject> loaded(const HorbeltSubjectOptions& options, Loader& loader, Console& console) {
   std::vector<HorbeltSubject> subjects;
   if (options.models.empty()) {
     if (!options.quick && loader.has_davosdorf())
@@ -116,6 +124,17 @@ std::vector<HorbeltSubject> load_horbelt_subjects(const HorbeltSubjectOptions& o
     if (std::count_if(subjects.begin(), subjects.end(), is_same) > 1)
       throw UsageError(fmt::format("study horbelt: two terrains of the name {}", subjects.back().name));
   }
+  return subjects;
+}
+
+}  // namespace
+
+std::vector<HorbeltSubject> load_horbelt_subjects(const HorbeltSubjectOptions& options, Console& console, CallFiles& files) {
+  for (const std::string& view : options.views)
+    if (std::filesystem::exists(view)) files.add_input(view, "--view");
+  Loader loader(options, console, files);
+  std::vector<HorbeltSubject> subjects = loaded(options, loader, console);
+  for (HorbeltSubject& subject : subjects) choose_views(subject, options);
   return subjects;
 }
 

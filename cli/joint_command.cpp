@@ -16,8 +16,8 @@
 #include "cli/joint_open.h"
 #include "cli/model_input.h"
 #include "cli/terrain_input.h"
+#include "cli/terrain_view_option.h"
 #include "cli/usage_error.h"
-#include "cli/view_option.h"
 #include "core/io/atomic_file.h"
 #include "core/io/image_file.h"
 #include "core/io/mesh_file.h"
@@ -50,19 +50,7 @@ terrain::TerrainView chosen_view(const Options& options, const terrain::HeightFi
     const FrameSize size = options.size.empty() ? fallback : parse_size(options.size);
     return validation::terrain_overview(field, size.width, size.height).view;
   }
-  const ViewChoice choice = parse_view(options.view);
-  const FrameSize size = !options.size.empty() ? parse_size(options.size) : choice.size.value_or(fallback);
-  const Camera camera = choice.named.camera
-                            ? *choice.named.camera
-                            : named_view(choice.named.name, bounding_box(validation::full_mesh(field)), size.width, size.height);
-  return {.eye = camera.eye,
-          .target = camera.target,
-          .up = camera.up,
-          .tan_half_fov_y = camera.tan_half_fov_y,
-          .near = camera.near,
-          .far = camera.far,
-          .width = size.width,
-          .height = size.height};
+  return chosen_terrain_view(options.view, options.size, fallback, field).view;
 }
 
 joint::SearchOptions search_options(const Options& options) {

@@ -38,11 +38,14 @@ struct Options {
   std::vector<std::string> tolerances;
   RangeOptions range;  ///< but its texture
   std::string texture, data;
+  std::vector<std::string> views;
   bool flip_v = false, quick = false;
   std::string report;  ///< empty: etalon-study-NAME
   GlOptions gl;
   CommonOptions common;
 };
+
+std::string report_folder(const Options& options) { return options.report.empty() ? "etalon-study-" + options.study : options.report; }
 
 /// What a study leaves to write.
 struct Studied {
@@ -130,8 +133,13 @@ Studied study_horbelt(const Options& options, const OpenedDevice& device, Consol
   if (device.renderer) how.device_model = device.model;
   how.progress = [&console](const std::string& label, int done, int total) { console.progress(label, done, total); };
   how.on_view = [&console](const std::string& subject, const HorbeltViewResult& view) { print_view(subject, view, console); };
-  const HorbeltSubjectOptions which{.models = options.models, .data = options.data, .quick = options.quick};
-  const HorbeltStudyResult result = run_horbelt_study(load_horbelt_subjects(which, console, files), exact, how);
+  const HorbeltSubjectOptions which{
+      .models = options.models, .data = options.data, .quick = options.quick, .views = options.views, .frame = {how.width, how.height}};
+  const std::vector<HorbeltSubject> subjects = load_horbelt_subjects(which, console, files);
+  for (const HorbeltSubject& subject : subjects)
+    for (const NamedTerrainView& view : subject.views)
+      files.add_output((std::filesystem::path(report_folder(options)) / horbelt_view_file(subject.name, view.name)).string(), "--report");
+  const HorbeltStudyResult result = run_horbelt_study(subjects, exact, how);
   return {horbelt_report(result), result.device_name, result.unexplained()};
 }
 
@@ -181,6 +189,8 @@ std::string command_of(const Options& options) {
   if (options.range.max_jump) command += fmt::format(" --max-jump {}", *options.range.max_jump);
   if (!options.texture.empty()) command += " --texture " + std::filesystem::path(options.texture).filename().string();
   if (options.flip_v) command += " --flip-v";
+  for (const std::string& view : options.views)
+    command += " --view " + (std::filesystem::exists(view) ? std::filesystem::path(view).filename().string() : view);
   return command + (options.quick ? " --quick" : "");
 }
 
@@ -194,6 +204,8 @@ void check_options(const Options& options) {
   if (options.study != "soucy" && (range.spacing || range.depth_scale || range.no_data || range.max_jump || !options.tolerances.empty()))
     throw UsageError(
         fmt::format("study {}: --tolerance, --spacing, --depth-scale, --no-data and --max-jump belong to study soucy", options.study));
+  if (options.study != "horbelt" && !options.views.empty())
+    throw UsageError(fmt::format("study {}: --view belongs to study horbelt", options.study));
   if (options.study != "kim" && options.reduction != Options{}.reduction)
     throw UsageError(fmt::format("study {}: --reduction belongs to study kim", options.study));
 }
@@ -201,7 +213,7 @@ void check_options(const Options& options) {
 int run(const Options& options) {
   apply(options.common);
   check_options(options);
-  const std::string folder = options.report.empty() ? "etalon-study-" + options.study : options.report;
+  const std::string folder = report_folder(options);
   require_writable_folder(folder);
   Console console(console_options(options.common));
   CallFiles files;
@@ -284,16 +296,21 @@ Verb add_study(CLI::App& root) {
   app->add_option("--reduction", options->reduction, "kim: share of the vertices of a mesh file that goes (default 0.9)")
       ->type_name("R")
       ->check(number_between(0.01, 0.999));
+  app->add_option("--view", options->views,
+                  "horbelt: a view file (etalon/view/1), or fit, front, N/24, instead of the study's own five (repeat it)")
+      ->type_name("FILE|NAME")
+      ->check(not_empty());
   app->add_option("--data", options->data, "Folder of the real inputs (default $ETALON_DATA, else etalon in your cache)")
       ->type_name("DIR")
       ->check(not_empty());
   app->add_flag("--quick", options->quick, "Small models and few samples: seconds, to see whether it works; no figure of it counts");
   app->add_option("--report", options->report, "Folder of the report (default etalon-study-NAME)")->type_name("DIR")->check(not_empty());
   add_gl_options(*app, options->gl);
-  add_common_options(*app, options->common,
-                     "  etalon study chen --quick\n  etalon study chen fox.obj --faces 2000 --faces 500 --report fox-study\n  etalon study "
-                     "kim scan.ply --reduction 0.95 --report scan-study\n  etalon study soucy scan.ply --faces 2000\n  etalon study soucy "
-                     "depth.tif --spacing 0.7 --texture colour.png");
+  add_common_options(
+      *app, options->common,
+      "  etalon study chen --quick\n  etalon study chen fox.obj --faces 2000 --faces 500 --report fox-study\n  etalon study "
+      "kim scan.ply --reduction 0.95 --report scan-study\n  etalon study soucy scan.ply --faces 2000\n  etalon study soucy "
+      "depth.tif --spacing 0.7 --texture colour.png\n  etalon study horbelt dem.tif photo.png --view pass.json --report pass-study");
   return {app, [options] { return run(*options); }};
 }
 

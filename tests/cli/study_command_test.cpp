@@ -232,3 +232,96 @@ TEST_CASE("study: an interrupt ends it with 130 and without a report") {
   CHECK(result.exit_code == 130);
   CHECK(!std::filesystem::exists(folder.path() / "out" / "index.html"));
 }
+
+namespace {
+
+/// A ridge of 36 × 36 samples, and a photo of twice as many texels.
+void make_terrain_files(const ScratchFolder& folder) {
+  etalon::Image dem(36, 36, etalon::kR32f), photo(72, 72, etalon::kRgb8);
+  for (int y = 0; y < 36; ++y)
+    for (int x = 0; x < 36; ++x)
+      *dem.channels<float>(x, y) = 900.0f + static_cast<float>(200 - (x - 18) * (x - 18) / 2 + (x * 5 + y * 11) % 13);
+  for (int y = 0; y < 72; ++y)
+    for (int x = 0; x < 72; ++x) {
+      auto* texel = photo.channels<std::uint8_t>(x, y);
+      texel[0] = static_cast<std::uint8_t>(3 * x), texel[1] = static_cast<std::uint8_t>((x / 5 + y / 7) % 2 * 120 + 60);
+      texel[2] = static_cast<std::uint8_t>(x * y % 250);
+    }
+  etalon::io::write_image(folder.path() / "dem.tif", dem);
+  etalon::io::write_image(folder.path() / "photo.png", photo);
+}
+
+}  // namespace
+
+TEST_CASE("study horbelt: the views that it writes are what joint --view and its own --view look from") {
+  const ScratchFolder folder;
+  make_terrain_files(folder);
+  const auto text = [&](const char* file) { return read_text(folder.path() / file); };
+  const CommandResult first =
+      run_etalon({"study", "horbelt", "dem.tif", "photo.png", "--quick", "--report", "first", "--json", "-"}, {.folder = folder.path()});
+  CAPTURE(first.err);
+  REQUIRE(first.exit_code == 0);
+  const json document = json::parse(first.out);
+  const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/study.json"));
+  for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
+  CHECK(document["files"].size() == 2);
+  CHECK(document["files"][0]["file"] == "dem-valley-view.json");
+  const json view = json::parse(text("first/dem-valley-view.json"));
+  const json view_schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/view.json"));
+  for (const std::string& violation : schema_violations(view_schema, view)) FAIL_CHECK(violation);
+  CHECK(view["width"] == 160);
+  CHECK(text("first/index.html").find("<a href=\"dem-valley-view.json\">") != std::string::npos);
+
+  // The same picture of the full pair, and the same path: 12 meshes and 8 textures are those of --quick.
+  const CommandResult joint = run_etalon({"joint", "dem.tif", "photo.png", "--view", "first/dem-valley-view.json", "--meshes", "12",
+                                          "--textures", "8", "-o", "both", "--json", "-"},
+                                         {.folder = folder.path()});
+  CAPTURE(joint.err);
+  REQUIRE(joint.exit_code == 0);
+  CHECK(text("both/full.png") == text("first/dem-valley-full.png"));
+  const json path = json::parse(joint.out)["path"];
+  std::vector<json> studied;
+  for (const json& table : document["tables"])
+    for (const json& row : table["rows"])
+      if (table["name"] == "paths" && row[1] == "valley") studied.push_back(row);
+  REQUIRE(studied.size() == path.size());
+  for (std::size_t n = 0; n < path.size(); ++n) {
+    CHECK(studied[n][2] == path[n]["mesh"]);
+    CHECK(studied[n][3] == path[n]["texture"]);
+    CHECK(studied[n][4] == path[n]["bits"]);
+  }
+
+  const CommandResult second = run_etalon({"study", "horbelt", "dem.tif", "photo.png", "--quick", "--view", "first/dem-valley-view.json",
+                                           "--view", "5/24", "--report", "second", "--json", "-"},
+                                          {.folder = folder.path()});
+  CAPTURE(second.err);
+  REQUIRE(second.exit_code == 0);
+  for (const char* file : {"dem-valley-view.json", "dem-valley-full.png", "figure4-dem-valley.svg", "figure5-dem-valley.svg"})
+    CHECK(text((std::string("second/") + file).c_str()) == text((std::string("first/") + file).c_str()));
+  CHECK(std::filesystem::exists(folder.path() / "second/dem-5-24-view.json"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "second/dem-overview-view.json"));
+  CHECK(json::parse(second.out)["claims"].size() == 6);  // the share of the terrain that is visible is of the paper's view
+}
+
+TEST_CASE("study horbelt --view: what cannot be is refused") {
+  const ScratchFolder folder;
+  make_terrain_files(folder);
+  const std::string down = R"({"schema": "etalon/view/1", "eye": [0, 2000, 1], "target": [0, 0, 0], "up": [0, 1, 0], "tan_half_fov_y": 0.3,
+ "near": 1, "far": 9000})";
+  (void)folder.file("down.json", down);
+  (void)folder.file("down-view.json", down);
+  std::filesystem::create_directory(folder.path() / "out");
+  (void)folder.file("out/dem-down-view.json", down);
+  (void)folder.file("away.json", R"({"schema": "etalon/view/1", "eye": [0, 2000, 0], "target": [0, 9000, 1], "up": [0, 1, 0],
+ "tan_half_fov_y": 0.3, "near": 1, "far": 9000})");
+  const auto refused = [&](std::vector<std::string> arguments, int exit_code, const char* mentions) {
+    arguments.insert(arguments.begin(), {"study", "horbelt", "dem.tif", "photo.png", "--quick"});
+    check_refused(arguments, exit_code, folder, mentions);
+  };
+  refused({"--view", "down.json", "--view", "down-view.json"}, 64, "two views of the name down: down.json and down-view.json");
+  refused({"--view", "missing.json"}, 64, "--view: expected front");
+  refused({"--view", "dem.tif"}, 4, "dem.tif");
+  refused({"--view", "away.json"}, 4, "dem, away: ");
+  refused({"--view", "out/dem-down-view.json", "--report", "out"}, 64, "would overwrite --view");
+  check_refused({"study", "kim", "duck", "--view", "fit"}, 64, folder, "--view belongs to study horbelt");
+}

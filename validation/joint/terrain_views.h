@@ -10,7 +10,7 @@
 namespace etalon::validation {
 
 struct NamedTerrainView {
-  std::string name;   ///< [a-z]
+  std::string name;   ///< [a-z0-9_-]
   std::string title;  ///< "from above"
   terrain::TerrainView view;
 };

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <span>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/sha256.h"
 #include "core/io/atomic_file.h"
 #include "core/io/image_file.h"
 #include "validation/report/json_report.h"
@@ -69,8 +71,10 @@ std::string standalone(const std::string& svg) {
 std::vector<std::pair<std::string, std::string>> contents(const StudyReport& report, const RunInfo& run, const std::string& command) {
   std::vector<std::pair<std::string, std::string>> files;
   for (const StudyPicture* picture : pictures_of(report)) files.emplace_back(picture->file, io::encode_png(picture->image, picture->file));
-  for (const StudyFigure& figure : report.figures)
+  for (const StudyFigure& figure : report.figures) {
     if (!figure.svg.empty()) files.emplace_back(study_drawing_file(figure), standalone(figure.svg));
+    for (const StudyFile& file : figure.files) files.emplace_back(file.file, file.bytes);
+  }
   for (const StudyTable& table : report.tables) files.emplace_back(table.name + ".csv", study_csv(table));
   files.emplace_back("study.md", study_markdown(report, run, command, measured_on(run)));
   files.emplace_back("study.json", to_text(study_document(report, run)));
@@ -108,6 +112,11 @@ Json study_document(const StudyReport& report, const RunInfo& run) {
   document["tables"] = std::move(tables);
   document["claims"] = std::move(claims);
   document["pictures"] = std::move(pictures);
+  Json files = Json::array();
+  for (const StudyFigure& figure : report.figures)
+    for (const StudyFile& file : figure.files)
+      files.push_back({{"file", file.file}, {"label", file.label}, {"sha256", sha256_hex(std::as_bytes(std::span(file.bytes)))}});
+  if (!files.empty()) document["files"] = std::move(files);
   document["notes"] = report.notes;
   Json about_run = to_json(run);
   about_run["tables"] = std::move(timed_tables);
@@ -131,8 +140,10 @@ std::string study_csv(const StudyTable& table) {
 std::vector<std::string> study_files(const StudyReport& report) {
   std::vector<std::string> names;
   for (const StudyPicture* picture : pictures_of(report)) names.push_back(picture->file);
-  for (const StudyFigure& figure : report.figures)
+  for (const StudyFigure& figure : report.figures) {
     if (!figure.svg.empty()) names.push_back(study_drawing_file(figure));
+    for (const StudyFile& file : figure.files) names.push_back(file.file);
+  }
   for (const StudyTable& table : report.tables) names.push_back(table.name + ".csv");
   names.insert(names.end(), {"study.md", "study.json", "index.html"});
   return names;

@@ -76,6 +76,7 @@ std::string study_markdown(const StudyReport& report, const RunInfo& run, const 
   text += "\n## Figures\n";
   for (const StudyFigure& figure : report.figures) {
     text += fmt::format("\n### {}\n\n{}\n", figure.title, figure.caption);
+    for (const StudyFile& file : figure.files) text += fmt::format("\n[{0}]({0}): {1}\n", file.file, file.label);
     if (!figure.svg.empty()) text += fmt::format("\n![{}]({})\n", figure.title, study_drawing_file(figure));
     for (const StudyPicture& picture : figure.pictures) text += fmt::format("\n![{0}]({1})\n{0}\n", picture.label, picture.file);
   }

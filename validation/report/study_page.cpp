@@ -47,6 +47,8 @@ std::string table_html(const StudyTable& table) {
 std::string figure_html(const StudyFigure& figure) {
   std::string html = fmt::format("<article class=\"card\" id=\"{}\"><h3>{}</h3><p class=\"soft\">{}</p>", figure.id, escaped(figure.title),
                                  escaped(figure.caption));
+  for (const StudyFile& file : figure.files)
+    html += fmt::format("<p class=\"soft\"><a href=\"{0}\">{0}</a>: {1}</p>", escaped(file.file), escaped(file.label));
   if (!figure.svg.empty()) html += "<div class=\"drawing\">" + figure.svg + "</div>";
   if (!figure.pictures.empty()) {
     html += fmt::format("<div class=\"row\" style=\"--columns:{}\">", figure.columns);

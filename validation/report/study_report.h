@@ -36,13 +36,21 @@ struct StudyPicture {
   Image image;  ///< RGB unorm8
 };
 
+/// Any other file beside the page, which links it: bytes as they are.
+struct StudyFile {
+  std::string file;  ///< its name in the study's folder
+  std::string label;
+  std::string bytes;
+};
+
 struct StudyFigure {
   std::string id;  ///< [a-z0-9-]
   std::string title;
   std::string caption;
   std::string svg;  ///< inline drawing; empty where there is none
   std::vector<StudyPicture> pictures;
-  int columns = 3;  ///< pictures side by side
+  int columns = 3;               ///< pictures side by side
+  std::vector<StudyFile> files;  ///< linked below the caption
 };
 
 enum class ClaimVerdict : std::uint8_t { holds, partly, fails };

@@ -152,6 +152,7 @@ StudyClaim visible_claim(const HorbeltStudyResult& result) {
   Count count;
   std::string measured;
   for (const HorbeltSubjectResult& subject : result.subjects) {
+    if (subject.has_own_views) continue;
     const HorbeltViewResult& view = subject.views.front();
     const double percent = 100.0 * static_cast<double>(view.visible_faces) / static_cast<double>(view.faces);
     count.add(percent >= 8 && percent <= 12);
@@ -167,8 +168,12 @@ StudyClaim visible_claim(const HorbeltStudyResult& result) {
 }  // namespace
 
 std::vector<StudyClaim> horbelt_claims(const HorbeltStudyResult& result) {
-  return {close_claim(result), printed_claim(result), evaluation_claim(result), growing_claim(result),
-          trade_claim(result), joint_claim(result),   visible_claim(result)};
+  std::vector<StudyClaim> claims = {close_claim(result),   printed_claim(result), evaluation_claim(result),
+                                    growing_claim(result), trade_claim(result),   joint_claim(result)};
+  // The paper says it of its own view: of a user's there is nothing to judge.
+  const auto has_own_views = [](const HorbeltSubjectResult& subject) { return subject.has_own_views; };
+  if (!std::ranges::all_of(result.subjects, has_own_views)) claims.push_back(visible_claim(result));
+  return claims;
 }
 
 }  // namespace etalon::validation

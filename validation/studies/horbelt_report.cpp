@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "validation/joint/terrain_problem.h"
 #include "validation/report/json_report.h"
+#include "validation/report/view_document.h"
 #include "validation/studies/horbelt_drawings.h"
 
 namespace etalon::validation {
@@ -128,6 +130,12 @@ StudyTable path_table(const HorbeltStudyResult& result) {
   return table;
 }
 
+StudyFile view_file(const HorbeltSubjectResult& subject, const HorbeltViewResult& v) {
+  const std::string name = horbelt_view_file(subject.name, v.view.name);
+  return {name, fmt::format("this view as a file; {} --view {} -o both looks from it too", subject.joint_command, name),
+          view_document(picture_frame(v.view.view).camera, v.view.view.width, v.view.view.height)};
+}
+
 std::vector<StudyFigure> figures_of(const HorbeltSubjectResult& subject, const HorbeltViewResult& v) {
   const std::string stem = subject.name + "-" + v.view.name, where = subject.name + ", " + v.view.title;
   const auto file = [&](const char* what) { return fmt::format("{}-{}.png", stem, what); };
@@ -171,11 +179,14 @@ std::vector<StudyFigure> figures_of(const HorbeltSubjectResult& subject, const H
                     {file("texture"),
                      fmt::format("Figure 3: texture {}, {} coefficients", v.mapped_texture, grouped(v.significant[v.mapped_texture])),
                      v.texture_map}},
-       .columns = 2});
+       .columns = 2,
+       .files = {view_file(subject, v)}});
   return figures;
 }
 
 }  // namespace
+
+std::string horbelt_view_file(const std::string& subject, const std::string& view) { return fmt::format("{}-{}-view.json", subject, view); }
 
 StudyReport horbelt_report(const HorbeltStudyResult& result) {
   StudyReport report;

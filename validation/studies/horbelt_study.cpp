@@ -112,8 +112,8 @@ void draw_maps(HorbeltViewResult& result, const HorbeltSubject& subject, const T
 
 class Study {
  public:
-  Study(Renderer& exact, const HorbeltStudyOptions& options, std::size_t subjects)
-      : exact_(exact), options_(options), total_(static_cast<int>(3 * subjects * options.view_count)) {}
+  Study(Renderer& exact, const HorbeltStudyOptions& options, std::size_t views)
+      : exact_(exact), options_(options), total_(static_cast<int>(3 * views)) {}
 
   HorbeltViewResult view(const HorbeltSubject& subject, const NamedTerrainView& named, bool is_checked) {
     const std::string label = subject.name + ", " + named.name;
@@ -121,7 +121,7 @@ class Study {
     result.view = named;
     begin(label + ": levels");
     const Stopwatch level_time;
-    TerrainProblem terrain(exact_, subject.field, subject.image, named.view, options_.levels);
+    TerrainProblem terrain = problem_of(subject, named);
     result.level_seconds = level_time.seconds();
     fill_levels(result, terrain.levels());
     const Mesh full = full_mesh(subject.field);
@@ -148,6 +148,14 @@ class Study {
   }
 
  private:
+  [[nodiscard]] TerrainProblem problem_of(const HorbeltSubject& subject, const NamedTerrainView& named) const {
+    try {
+      return {exact_, subject.field, subject.image, named.view, options_.levels};
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}, {}: {}", subject.name, named.name, error.what()));
+    }
+  }
+
   void begin(const std::string& label) { report(label), ++done_; }
   void report(const std::string& label) const {
     if (options_.progress) options_.progress(label, std::min(done_, total_ - 1), total_);
@@ -207,13 +215,18 @@ HorbeltStudyResult run_horbelt_study(const std::vector<HorbeltSubject>& subjects
   HorbeltStudyResult result;
   result.exact_name = exact.name();
   if (options.device != nullptr) result.device_name = options.device->name();
-  Study study(exact, options, subjects.size());
+  std::size_t view_count = 0;
+  for (const HorbeltSubject& subject : subjects) view_count += subject.views.empty() ? options.view_count : subject.views.size();
+  Study study(exact, options, view_count);
   for (std::size_t s = 0; s < subjects.size(); ++s) {
     const HorbeltSubject& subject = subjects[s];
     result.inputs.insert(result.inputs.end(), subject.inputs.begin(), subject.inputs.end());
-    result.subjects.push_back({subject.name, subject.title, {}});
-    std::vector<NamedTerrainView> views = terrain_views(exact, subject.field, options.width, options.height);
-    views.resize(std::min(views.size(), options.view_count));
+    result.subjects.push_back({subject.name, subject.title, subject.joint_command, !subject.views.empty(), {}});
+    std::vector<NamedTerrainView> views = subject.views;
+    if (views.empty()) {
+      views = terrain_views(exact, subject.field, options.width, options.height);
+      views.resize(std::min(views.size(), options.view_count));
+    }
     for (std::size_t v = 0; v < views.size(); ++v) {
       const bool is_checked = s == options.checked_subject && v < options.checked_views;
       result.subjects.back().views.push_back(study.view(subject, views[v], is_checked));

@@ -24,6 +24,8 @@ struct HorbeltSubject {
   terrain::HeightField field;
   Image image;  ///< RGB unorm8
   std::vector<VerifyInput> inputs;
+  std::vector<NamedTerrainView> views;  ///< names differ; empty: those of terrain_views()
+  std::string joint_command;            ///< that looks at the same terrain: "etalon joint dem.tif photo.png --grid 257"
 };
 
 enum class HorbeltMethod : std::uint8_t {
@@ -45,7 +47,7 @@ struct HorbeltViewResult;
 
 struct HorbeltStudyOptions {
   int width = 640, height = 480;
-  std::size_t view_count = 5;  ///< of terrain_views(), the first so many
+  std::size_t view_count = 5;  ///< of terrain_views(), the first so many; a subject's own views are all taken
   joint::LevelOptions levels;
   Renderer* device = nullptr;  ///< OpenGL: draws what the exact renderer drew on the path of slope, for the first checked_views views
   std::optional<DeviceModel> device_model;
@@ -95,7 +97,8 @@ struct HorbeltViewResult {
 };
 
 struct HorbeltSubjectResult {
-  std::string name, title;
+  std::string name, title, joint_command;
+  bool has_own_views = false;  ///< not those of terrain_views()
   std::vector<HorbeltViewResult> views;
 };
 
@@ -106,7 +109,7 @@ struct HorbeltStudyResult {
   [[nodiscard]] std::uint64_t unexplained() const;
 };
 
-/// Everything but the seconds is the same bytes for any number of threads. InputError as TerrainProblem.
+/// Everything but the seconds is the same bytes for any number of threads. InputError "SUBJECT, VIEW: …" as TerrainProblem.
 [[nodiscard]] HorbeltStudyResult run_horbelt_study(const std::vector<HorbeltSubject>& subjects, Renderer& exact,
                                                    const HorbeltStudyOptions& options);
 
