@@ -32,7 +32,7 @@ void for_each_block(std::size_t begin, std::size_t end, const Blocks& blocks, co
 }  // namespace
 
 CoordinatePicture::Reference CoordinatePicture::reference(const Image& wanted) const {
-  ETALON_CHECK(wanted.format() == kRgba8 && wanted.texel_count() == coordinates_.texel_count(), "a picture of the frame's size");
+  ETALON_CHECK(wanted.format() == kRgba8 && wanted.texel_count() == coordinates_->texel_count(), "a picture of the frame's size");
   const auto* const texels = wanted.channels<std::uint8_t>(0, 0);
   const auto energy = [&](std::size_t n) {
     const std::uint8_t* const t = texels + 4 * n;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "core/base/error.h"
@@ -72,7 +73,20 @@ DrawnCoordinates draw_coordinates(Renderer& renderer, const Mesh& mesh, const Pi
   frame.targets = {{TargetContent::coordinate, kRg32f, {}}, {TargetContent::triangle_id, kR32ui, {}}};
   frame.state = renderer.supported_state(frame.state);
   std::vector<Image> images = renderer.render(make_scene(mesh, {Material{}}, picture.camera, frame), frame);
-  return {std::move(images[0]), std::move(images[1])};
+  return {std::make_shared<const Image>(std::move(images[0])), std::move(images[1])};
+}
+
+void hide_what_both_show(DrawnCoordinates& one, DrawnCoordinates& other) {
+  const std::size_t texels = one.ids.texel_count();
+  ETALON_CHECK(texels == other.ids.texel_count(), fmt::format("{} and {} texels", texels, other.ids.texel_count()));
+  auto *const id = one.ids.channels<std::uint32_t>(0, 0), *const other_id = other.ids.channels<std::uint32_t>(0, 0);
+  const auto *const uv = one.coordinates->channels<float>(0, 0), *const other_uv = other.coordinates->channels<float>(0, 0);
+  parallel_for_blocks(texels, kBlock, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t n = begin; n < end; ++n) {
+      if (id[n] == kNoTriangle || other_id[n] == kNoTriangle || std::memcmp(uv + 2 * n, other_uv + 2 * n, 2 * sizeof(float)) != 0) continue;
+      id[n] = other_id[n] = kNoTriangle;
+    }
+  });
 }
 
 LookupPass lookup_pass(const Renderer& renderer, std::shared_ptr<const Image> texture, std::shared_ptr<const Image> coordinates) {
@@ -103,7 +117,7 @@ LookupPass lookup_pass(const Renderer& renderer, std::shared_ptr<const Image> te
 
 Image draw_in_two_passes(Renderer& renderer, const Mesh& mesh, std::shared_ptr<const Image> texture, const PictureFrame& frame) {
   DrawnCoordinates drawn = draw_coordinates(renderer, mesh, frame);
-  const LookupPass pass = lookup_pass(renderer, std::move(texture), std::make_shared<const Image>(std::move(drawn.coordinates)));
+  const LookupPass pass = lookup_pass(renderer, std::move(texture), drawn.coordinates);
   Image picture = std::move(renderer.render(pass.list, pass.frame).front());
   for (int y = 0; y < frame.height; ++y)
     for (int x = 0; x < frame.width; ++x)
@@ -115,9 +129,9 @@ CoordinatePicture::CoordinatePicture(DrawnCoordinates drawn, int texture_width, 
     : coordinates_(std::move(drawn.coordinates)), texture_width_(texture_width), texture_height_(texture_height) {
   if (texture_width < 2 || texture_height < 2)
     throw InputError(fmt::format("texture: expected at least 2x2 texels, got {}x{}", texture_width, texture_height));
-  const auto* uv = coordinates_.channels<float>(0, 0);
+  const auto* uv = coordinates_->channels<float>(0, 0);
   const auto* ids = drawn.ids.channels<std::uint32_t>(0, 0);
-  const std::size_t texels = coordinates_.texel_count(), blocks = texels / kBlock + 1;
+  const std::size_t texels = coordinates_->texel_count(), blocks = texels / kBlock + 1;
   std::vector<std::size_t> starts(blocks + 1);  // covered texels before each block
   parallel_for_blocks(texels, kBlock, [&](std::size_t begin, std::size_t end) {
     starts[begin / kBlock + 1] =
@@ -143,7 +157,7 @@ std::array<std::uint8_t, 3> CoordinatePicture::color(const std::uint8_t* texels,
   constexpr std::int64_t kFraction = (std::int64_t{1} << (2 * kWeightBits)) - 1, kHalf = (kFraction + 1) / 2;
   // Two weights off by at most 2^-25 each, values to 255: the sum is off by less than 2^-16; where half is nearer than that it is left open.
   constexpr std::int64_t kOpen = (kFraction + 1) >> 16;
-  const auto* const uv = coordinates_.channels<float>(0, 0) + 2 * std::size_t{at_[n]};
+  const auto* const uv = coordinates_->channels<float>(0, 0) + 2 * std::size_t{at_[n]};
   const Weight x = rounded_weight(lookup_axis(uv[0], texture_width_)), y = rounded_weight(lookup_axis(uv[1], texture_height_));
   const std::uint8_t* const low = texels + 4 * std::size_t{texel_[n]};
   const std::uint8_t* const high = low + 4 * static_cast<std::size_t>(texture_width_);
@@ -167,7 +181,7 @@ void CoordinatePicture::require_texture(const Image& texture) const {
 
 Image CoordinatePicture::picture(const Image& texture) const {
   require_texture(texture);
-  Image picture(coordinates_.width(), coordinates_.height(), kRgba8);
+  Image picture(coordinates_->width(), coordinates_->height(), kRgba8);
   const auto* const texels = texture.channels<std::uint8_t>(0, 0);
   auto* const out = picture.channels<std::uint8_t>(0, 0);
   parallel_for_blocks(at_.size(), kBlock, [&](std::size_t begin, std::size_t end) {

@@ -25,12 +25,16 @@ struct PictureFrame {
 
 /// What a mesh covers and at which coordinates.
 struct DrawnCoordinates {
-  Image coordinates;  ///< RG float32
-  Image ids;          ///< R uint32: triangle of the draw list, kNoTriangle where nothing is seen
+  std::shared_ptr<const Image> coordinates;  ///< RG float32
+  Image ids;                                 ///< R uint32: triangle of the draw list, kNoTriangle where nothing is seen
 };
 
 /// The mesh of one wedge a vertex, drawn into its own coordinates. Errors of make_scene() and Renderer::render().
 [[nodiscard]] DrawnCoordinates draw_coordinates(Renderer& renderer, const Mesh& mesh, const PictureFrame& frame);
+
+/// Covers no longer in either what both show at the same coordinate, bit by bit: there all their pictures are equal, so that between errors of these
+/// rests lies the same difference as between those of the whole. Of one size (InternalError).
+void hide_what_both_show(DrawnCoordinates& one, DrawnCoordinates& other);
 
 /// The list and frame of the second pass: a rectangle over the whole frame, `texture` looked up at what `coordinates` holds.
 struct LookupPass {
@@ -74,7 +78,7 @@ class CoordinatePicture {
   [[nodiscard]] std::uint64_t square(const std::uint8_t* texels, std::size_t lookup, const Reference& reference) const;
   void require_texture(const Image& texture) const;
 
-  Image coordinates_;
+  std::shared_ptr<const Image> coordinates_;
   int texture_width_, texture_height_;
   // By covered texel, in the frame's order: where it is; texel (i, j) of (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1); the weights of the second
   // column and row.

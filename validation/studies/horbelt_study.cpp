@@ -88,7 +88,7 @@ void check_on_device(HorbeltViewResult& view, TerrainProblem& terrain, Renderer&
       frame.state = options.device->supported_state(frame.state);
       const Mesh mesh = terrain.mesh(pair.mesh);
       compare(make_scene(mesh, {Material{}}, picture.camera, frame), frame);
-      coordinates = std::make_shared<const Image>(draw_coordinates(exact, mesh, picture).coordinates);
+      coordinates = draw_coordinates(exact, mesh, picture).coordinates;
       drawn_mesh = pair.mesh;
     }
     const LookupPass pass =

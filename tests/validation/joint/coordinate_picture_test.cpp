@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "core/base/error.h"
 #include "core/base/rng.h"
 #include "raster/cpu_renderer.h"
@@ -154,9 +156,61 @@ TEST_CASE("screen errors draw each mesh once for all its textures") {
   const std::vector<std::uint64_t> row = errors.sse_of_mesh(0);
   REQUIRE(row.size() == 3);
   for (std::size_t j = 0; j < 3; ++j) CHECK(row[j] == errors.sse(0, j));
+  CHECK(errors.meshes_drawn() == 3);
+  CHECK(errors.sse_of_mesh(0) == row);
+  CHECK(errors.meshes_drawn() == 3);
   errors.forget_drawings();
   CHECK(errors.sse_of_mesh(1)[2] == 0);
-  CHECK(errors.meshes_drawn() == 3);
+  CHECK(errors.meshes_drawn() == 4);
+}
+
+TEST_CASE("errors of a mesh that shares triangles with the one before are those of the mesh alone") {
+  raster::CpuRenderer exact;
+  std::vector<Mesh> meshes;
+  for (const int kept : {12, 11, 3, 0}) {  // all, but one, few and none of the first mesh's triangles; others in their places
+    Mesh mesh = chance_mesh(1, 12, 0, 1);
+    const Mesh other = chance_mesh(static_cast<std::uint64_t>(2 + kept), 12, 0, 1);
+    for (std::size_t v = 3 * static_cast<std::size_t>(kept); v < mesh.positions.size(); ++v)
+      mesh.positions[v] = other.positions[v], mesh.wedges[v] = other.wedges[v];
+    meshes.push_back(std::move(mesh));
+  }
+  Mesh moved = meshes[0];
+  for (Wedge& wedge : moved.wedges) wedge.uv.y = std::nextafter(wedge.uv.y, 2.0f);  // every texel covered, at another coordinate
+  meshes.push_back(std::move(moved));
+  std::vector<Image> textures;
+  for (std::uint64_t seed = 0; seed < 11; ++seed) textures.push_back(chance_texture(seed, 48, 16));
+  const Image reference = CoordinatePicture(draw_coordinates(exact, meshes[0], kFrame), 48, 16).picture(textures[10]);
+  ScreenErrors in_turn(exact, {kFrame, [&](std::size_t i) { return meshes[i]; }, textures, reference});
+  for (const std::size_t i : {0, 1, 2, 3, 0, 4, 0, 3}) {
+    CAPTURE(i);
+    ScreenErrors alone(exact, {kFrame, [&](std::size_t k) { return meshes[k]; }, textures, reference});
+    const std::vector<std::uint64_t> errors = in_turn.sse_of_mesh(i);
+    CHECK(errors == alone.sse_of_mesh(i));
+    for (const std::size_t t : {0, 7, 10}) CHECK(errors[t] == alone.sse(i, t));
+  }
+}
+
+TEST_CASE("what two drawings show alike is hidden in both, and nothing else") {
+  raster::CpuRenderer exact;
+  Mesh mesh = chance_mesh(1, 12, 0, 1);
+  const DrawnCoordinates one = draw_coordinates(exact, mesh, kFrame);
+  for (std::size_t v = 30; v < 36; ++v) mesh.wedges[v].uv = {0.25f, 0.75f};
+  mesh.positions[0].x += 0.5f;
+  const DrawnCoordinates other = draw_coordinates(exact, mesh, kFrame);
+  DrawnCoordinates rest = one, rest_of_other = other;
+  hide_what_both_show(rest, rest_of_other);
+  std::size_t hidden = 0, left = 0;
+  for (int y = 0; y < kFrame.height; ++y)
+    for (int x = 0; x < kFrame.width; ++x) {
+      const std::uint32_t a = *one.ids.channels<std::uint32_t>(x, y), b = *other.ids.channels<std::uint32_t>(x, y);
+      const auto *uv = one.coordinates->channels<float>(x, y), *other_uv = other.coordinates->channels<float>(x, y);
+      const bool alike = a != kNoTriangle && b != kNoTriangle && uv[0] == other_uv[0] && uv[1] == other_uv[1];
+      hidden += alike ? 1 : 0, left += !alike && (a != kNoTriangle || b != kNoTriangle) ? 1 : 0;
+      REQUIRE(*rest.ids.channels<std::uint32_t>(x, y) == (alike ? kNoTriangle : a));
+      REQUIRE(*rest_of_other.ids.channels<std::uint32_t>(x, y) == (alike ? kNoTriangle : b));
+    }
+  CHECK(hidden > 1000);
+  CHECK(left > 1000);
 }
 
 TEST_CASE("textures of one texel's width, and of formats without bytes, are refused") {
