@@ -129,3 +129,13 @@ TEST_CASE("the rendered bytes do not depend on threads, and '-' is standard outp
   CHECK(run_etalon({"render", "square.obj", "--size", "64", "-o", "square.png"}, {.folder = folder.path()}).exit_code == 0);
   CHECK(read_text(folder.path() / "square.png") == one.out);
 }
+
+TEST_CASE("peak_bytes is the program's own, however large the process that started it") {
+  constexpr std::size_t kHeld = std::size_t{512} << 20;
+  const ScratchFolder folder;
+  const std::vector<char> held(kHeld, 1);
+  const json document = checked_document({"make", "knot", "--faces", "1000", "-o", "knot.ply"}, "make.json", folder);
+  REQUIRE(held[kHeld / 2] == 1);
+  CHECK(document["run"]["peak_bytes"] > 1 << 20);
+  CHECK(document["run"]["peak_bytes"] < kHeld / 2);
+}
