@@ -110,6 +110,7 @@ std::string encode_by_oiio(const Image& image, const std::string& name, const ch
   spec.attribute("oiio:UnassociatedAlpha", 1);
   if (image.format().channels == 2) spec.alpha_channel = -1;
   if (image.format().type == ChannelType::half) spec.attribute("tiff:half", 1);
+  spec.attribute("DateTime", "");  // else the TIFF writer puts the time of day in, and the same image has other bytes
   output->set_ioproxy(&memory);
   if (!output->open(std::string("memory.") + plugin, spec)) fail_by_library();
   const auto row_bytes = static_cast<OIIO::stride_t>(image.width()) * bytes_per_texel(image.format());

@@ -119,6 +119,18 @@ void put_documents(const fs::path& folder) {
       R"({"schema":"etalon/view/1","eye":[0,0,3],"target":[0,0,0],"up":[0,1,0],"tan_half_fov_y":0.5,"near":0.1,"far":100,"width":64,"height":48})");
   put(folder / "waivers/waivers.json",
       R"({"schema":"etalon/waivers/1","waivers":[{"pair":"a.png","device":"gl","reason":"driver","expires":"2027-01-31","texels":3}]})");
+  put(folder / "probe/probe.json",
+      R"({"schema":"etalon/probe/1","contract":1,"inputs":[],"device":{"name":"a device","renderer":"a renderer","vendor":"v",)"
+      R"("version":"4.5","origin":"OSMesa","declared_subtexel_bits":8},"coverage":{"triangles":1152,"texels":393216,)"
+      R"("subtexel_bits":8,"snap":"nearest_even","fill_rule":"left_ymin","differing":0,"nearest":{"subtexel_bits":8,)"
+      R"("snap":"nearest_even","fill_rule":"left_ymin"}},"interpolation":{"samples":1031278,"unbounded":5,)"
+      R"("affine":0.20400824513784035,"perspective":0.09585351188834164,"depth":0.20913975683271874},"nearest":{"steps":true,)"
+      R"("earliest_texel":0.0,"latest_texel":0.0,"fixed_bits":null},"linear":{"unorm8":{"weight_bits":8,"weights_rounded":true,)"
+      R"("largest_weight_error":0.003906309604644775,"levels_of_small_step":2,"largest_value_error":0.0054637622093473,)"
+      R"("value_error_over_model":0.003125856497962995},"float32":{"weight_bits":null,"weights_rounded":false,)"
+      R"("largest_weight_error":0.0,"levels_of_small_step":0,"largest_value_error":5.87228774495685e-08,)"
+      R"("value_error_over_model":0.0}},"storage":{"half":"toward_zero","half_values":2789,"unorm8_nearest":true},"factor":4.0,)"
+      R"("run":{"day":"2027-01-31"}})");
 }
 
 }  // namespace

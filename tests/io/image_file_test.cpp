@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
+#include "core/io/inputs.h"
 #include "tests/io/image_builder.h"
 #include "tests/io/scratch.h"
 
@@ -42,6 +43,16 @@ TEST_CASE("image file: every format that a file type holds comes back bit by bit
       check("a.tif", {type, channels});
     for (const ChannelType type : {ChannelType::half, ChannelType::float32, ChannelType::uint32}) check("a.exr", {type, channels});
   }
+}
+
+TEST_CASE("image file: no time of day in a TIFF file, so that an image has one file") {
+  const ScratchFolder folder;
+  write_image(folder / "a.tif", random_image(4, 4, kRgb8, 1));
+  const FileBytes file = read_file(folder / "a.tif");
+  // Tag 306, DateTime, of type 2: one character, the final zero.
+  const std::string entry("\x32\x01\x02\x00\x01\x00\x00\x00\x00", 9);
+  CHECK(file.text().substr(0, 2) == "II");
+  CHECK(file.text().find(entry) != std::string_view::npos);
 }
 
 TEST_CASE("image file: all 65,536 pairs of colour and alpha survive PNG") {
