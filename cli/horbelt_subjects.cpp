@@ -48,9 +48,8 @@ class Loader {
     HorbeltSubject subject = made(name, std::move(input.field), std::move(input.image));
     subject.inputs = {file_input(dem, "DEM"), file_input(image, "image")};
     subject.joint_command = fmt::format("etalon joint {} {}", subject.inputs[0].name, subject.inputs[1].name);
-    if (options.grid) subject.joint_command += fmt::format(" --grid {}", *options.grid);
-    if (options.texture_size != 0) subject.joint_command += fmt::format(" --texture-size {}", options.texture_size);
-    if (options.spacing_m != TerrainOptions{}.spacing_m) subject.joint_command += fmt::format(" --spacing {}", options.spacing_m);
+    subject.joint_command += terrain_arguments(options);
+    subject.notes = std::move(input.notes), subject.warnings = std::move(input.warnings);
     return subject;
   }
 
@@ -99,6 +98,11 @@ void choose_views(HorbeltSubject& subject, const HorbeltSubjectOptions& options)
   }
 }
 
+void require_no_terrain_options(const HorbeltSubjectOptions& options) {
+  if (const std::string given = terrain_arguments(options.terrain); !given.empty())
+    throw UsageError(fmt::format("study horbelt:{}: belongs to a DEM and an IMAGE of one's own", given));
+}
+
 std::vector<HorbeltSubject> loaded(const HorbeltSubjectOptions& options, Loader& loader, Console& console) {
   std::vector<HorbeltSubject> subjects;
   if (options.models.empty()) {
@@ -107,8 +111,10 @@ std::vector<HorbeltSubject> loaded(const HorbeltSubjectOptions& options, Loader&
     else if (!options.quick)
       console.line(fmt::format("note: {} is not there: davosdorf is left out (ETALON_DATA or --data)", kDem));
     subjects.push_back(loader.alps());
+    require_no_terrain_options(options);
     return subjects;
   }
+  bool has_own = false;
   for (std::size_t n = 0; n < options.models.size(); ++n) {
     const std::string& model = options.models[n];
     if (model == "davosdorf") {
@@ -117,13 +123,15 @@ std::vector<HorbeltSubject> loaded(const HorbeltSubjectOptions& options, Loader&
       subjects.push_back(loader.alps());
     } else {
       if (n + 1 == options.models.size()) throw UsageError(fmt::format("study horbelt: {}: expected an IMAGE after the DEM", model));
-      subjects.push_back(loader.from_files(stem_of(model), model, options.models[n + 1], {}));
+      subjects.push_back(loader.from_files(stem_of(model), model, options.models[n + 1], options.terrain));
+      has_own = true;
       ++n;
     }
     const auto is_same = [&](const HorbeltSubject& other) { return other.name == subjects.back().name; };
     if (std::count_if(subjects.begin(), subjects.end(), is_same) > 1)
       throw UsageError(fmt::format("study horbelt: two terrains of the name {}", subjects.back().name));
   }
+  if (!has_own) require_no_terrain_options(options);
   return subjects;
 }
 

@@ -7,6 +7,7 @@
 #include "cli/call_files.h"
 #include "cli/console.h"
 #include "cli/size_option.h"
+#include "cli/terrain_input.h"
 #include "validation/studies/horbelt_study.h"
 
 namespace etalon::cli {
@@ -14,6 +15,7 @@ namespace etalon::cli {
 struct HorbeltSubjectOptions {
   std::vector<std::string> models;  ///< davosdorf, alps, or one DEM and its IMAGE; empty: both of the former
   std::string data;                 ///< folder of real inputs; empty: $ETALON_DATA, else etalon in the user's cache
+  TerrainOptions terrain;           ///< of files of one's own
   bool quick = false;               ///< small alps, and davosdorf only where named
   std::vector<std::string> views;   ///< as --view gives them; empty: the study's own five
   std::string size;                 ///< of their frames, as --size gives it; empty: a view file's own, else `frame`

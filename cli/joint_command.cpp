@@ -39,8 +39,8 @@ using validation::grouped;
 struct Options {
   std::string dem, image, view, output, search = "prune", rule = "slope", kernel = "9/7", size;
   std::int64_t meshes = 60, textures = 32, budget_bytes = 0;
-  int grid = 0, texture_size = 0;
-  double spacing = 10, height_unit = 0.25;
+  TerrainOptions terrain;
+  double height_unit = 0.25;
   CommonOptions common;
 };
 
@@ -220,9 +220,7 @@ int run(const Options& options) {
   for (const char* name : {"model.obj", "model.mtl", "model_texture.png", "picture.png", "full.png", "path.csv", "pairs.csv", "joint.ejt"})
     files.add_output((folder / name).string(), "-o");
   files.add_output(options.common.json, "--json");
-  TerrainOptions which{.grid = {}, .spacing_m = options.spacing, .texture_size = options.texture_size};
-  if (options.grid != 0) which.grid = options.grid;
-  const TerrainInput input = load_terrain(options.dem, options.image, which);
+  const TerrainInput input = load_terrain(options.dem, options.image, options.terrain);
   const std::vector<validation::VerifyInput> inputs = {file_input(options.dem, "DEM"), file_input(options.image, "image")};
   for (const std::string& note : input.notes) console.line("note: " + note);
   for (const std::string& warning : input.warnings) print_warning(options.dem + ": " + warning);
@@ -276,13 +274,8 @@ Verb add_joint(CLI::App& root) {
   app->add_option("--budget", options->budget_bytes, "Bytes that the written model may take (default: all)")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
-  app->add_option("--grid", options->grid, "Points of the terrain on a side, 2^k + 1 (default: the most that the DEM has)")
-      ->type_name("N")
-      ->check(CLI::Range(5, 4097));
-  app->add_option("--texture-size", options->texture_size, "Side of the texture (default: the image's own texels)")
-      ->type_name("N")
-      ->check(CLI::Range(2, 4096));
-  app->add_option("--spacing", options->spacing, "Metres between samples of the DEM (default 10)")
+  add_terrain_options(*app, options->terrain);
+  app->add_option("--spacing", options->terrain.spacing_m, "Metres between samples of the DEM (default 10)")
       ->type_name("M")
       ->check(number_between(1e-6, 1e6));
   app->add_option("--height-unit", options->height_unit, "Metres of which coded heights are multiples (default 0.25)")

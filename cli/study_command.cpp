@@ -1,5 +1,6 @@
 #include "cli/study_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -38,7 +39,9 @@ struct Options {
   std::vector<std::string> tolerances;
   RangeOptions range;  ///< but its texture
   std::string texture, data;
-  std::vector<std::string> views;
+  std::vector<std::string> views;  ///< horbelt, as the following
+  std::string size;
+  TerrainOptions terrain;  ///< but its spacing
   bool flip_v = false, quick = false;
   std::string report;  ///< empty: etalon-study-NAME
   GlOptions gl;
@@ -47,11 +50,18 @@ struct Options {
 
 std::string report_folder(const Options& options) { return options.report.empty() ? "etalon-study-" + options.study : options.report; }
 
+TerrainOptions terrain_options(const Options& options) {
+  TerrainOptions result = options.terrain;
+  result.spacing_m = options.range.spacing;
+  return result;
+}
+
 /// What a study leaves to write.
 struct Studied {
   StudyReport report;
   std::string device_name;
   std::uint64_t unexplained = 0;  ///< texels between both renderers
+  bool is_doubtful = false;       ///< an input was warned of
 };
 
 void print_subject(const KimSubjectResult& subject, Console& console) {
@@ -129,18 +139,28 @@ Studied study_horbelt(const Options& options, const OpenedDevice& device, Consol
   raster::CpuRenderer exact;
   HorbeltStudyOptions how;
   if (options.quick) how.width = 160, how.height = 120, how.view_count = 2, how.levels.meshes = 12, how.levels.textures = 8;
+  if (!options.size.empty()) {
+    const FrameSize size = parse_size(options.size);
+    how.width = size.width, how.height = size.height;
+  }
   how.device = device.renderer.get();
   if (device.renderer) how.device_model = device.model;
   how.progress = [&console](const std::string& label, int done, int total) { console.progress(label, done, total); };
   how.on_view = [&console](const std::string& subject, const HorbeltViewResult& view) { print_view(subject, view, console); };
-  const HorbeltSubjectOptions which{
-      .models = options.models, .data = options.data, .quick = options.quick, .views = options.views, .frame = {how.width, how.height}};
+  const HorbeltSubjectOptions which{.models = options.models,
+                                    .data = options.data,
+                                    .terrain = terrain_options(options),
+                                    .quick = options.quick,
+                                    .views = options.views,
+                                    .size = options.size,
+                                    .frame = {how.width, how.height}};
   const std::vector<HorbeltSubject> subjects = load_horbelt_subjects(which, console, files);
   for (const HorbeltSubject& subject : subjects)
     for (const NamedTerrainView& view : subject.views)
       files.add_output((std::filesystem::path(report_folder(options)) / horbelt_view_file(subject.name, view.name)).string(), "--report");
   const HorbeltStudyResult result = run_horbelt_study(subjects, exact, how);
-  return {horbelt_report(result), result.device_name, result.unexplained()};
+  const bool is_doubtful = std::ranges::any_of(subjects, [](const HorbeltSubject& subject) { return !subject.warnings.empty(); });
+  return {horbelt_report(result), result.device_name, result.unexplained(), is_doubtful};
 }
 
 void print_subject(const SoucyScanResult& scan, Console& console) {
@@ -183,12 +203,13 @@ std::string command_of(const Options& options) {
   for (const std::string& model : options.models) command += " " + std::filesystem::path(model).filename().string();
   for (const std::size_t faces : options.faces) command += fmt::format(" --faces {}", faces);
   for (const std::string& tolerance : options.tolerances) command += " --tolerance " + tolerance;
-  if (options.range.spacing) command += fmt::format(" --spacing {}", *options.range.spacing);
   if (options.range.depth_scale) command += fmt::format(" --depth-scale {}", *options.range.depth_scale);
   if (options.range.no_data) command += fmt::format(" --no-data {}", *options.range.no_data);
   if (options.range.max_jump) command += fmt::format(" --max-jump {}", *options.range.max_jump);
   if (!options.texture.empty()) command += " --texture " + std::filesystem::path(options.texture).filename().string();
   if (options.flip_v) command += " --flip-v";
+  command += terrain_arguments(terrain_options(options));
+  if (!options.size.empty()) command += " --size " + options.size;
   for (const std::string& view : options.views)
     command += " --view " + (std::filesystem::exists(view) ? std::filesystem::path(view).filename().string() : view);
   return command + (options.quick ? " --quick" : "");
@@ -201,11 +222,13 @@ void check_options(const Options& options) {
   if (options.study == "soucy" && options.faces.size() > 1) throw UsageError("study soucy: expected one --faces, got several");
   if (!chen && options.flip_v) throw UsageError(fmt::format("study {}: --flip-v belongs to study chen", options.study));
   const RangeOptions& range = options.range;
-  if (options.study != "soucy" && (range.spacing || range.depth_scale || range.no_data || range.max_jump || !options.tolerances.empty()))
+  if (options.study != "soucy" && options.study != "horbelt" && range.spacing)
+    throw UsageError(fmt::format("study {}: --spacing belongs to study soucy and study horbelt", options.study));
+  if (options.study != "soucy" && (range.depth_scale || range.no_data || range.max_jump || !options.tolerances.empty()))
+    throw UsageError(fmt::format("study {}: --tolerance, --depth-scale, --no-data and --max-jump belong to study soucy", options.study));
+  if (options.study != "horbelt" && (!options.views.empty() || !options.size.empty() || !terrain_arguments(options.terrain).empty()))
     throw UsageError(
-        fmt::format("study {}: --tolerance, --spacing, --depth-scale, --no-data and --max-jump belong to study soucy", options.study));
-  if (options.study != "horbelt" && !options.views.empty())
-    throw UsageError(fmt::format("study {}: --view belongs to study horbelt", options.study));
+        fmt::format("study {}: --view, --size, --grid, --texture-size and --height-scale belong to study horbelt", options.study));
   if (options.study != "kim" && options.reduction != Options{}.reduction)
     throw UsageError(fmt::format("study {}: --reduction belongs to study kim", options.study));
 }
@@ -252,7 +275,7 @@ int run(const Options& options) {
     print_error(fmt::format("{} unexplained between both renderers", counted(studied.unexplained, "texel")));
     return kExitCheckFailed;
   }
-  return kExitDone;
+  return studied.is_doubtful ? kExitWarning : kExitDone;
 }
 
 }  // namespace
@@ -288,6 +311,11 @@ Verb add_study(CLI::App& root) {
   app->add_flag("--flip-v", options->flip_v,
                 "chen: the mesh files' texture coordinates run from top to bottom against their format's convention");
   add_range_file_options(*app, options->range);
+  app->get_option("--spacing")
+      ->description(
+          "soucy: of a range image, model units from sample to sample (EXR: default its attribute rangeSpacing); horbelt: metres between "
+          "the "
+          "samples of a DEM of one's own (default 10)");
   app->add_option("--tolerance", options->tolerances,
                   "soucy: how far a sample of a range image file may be from the surface: model units, or 0.5% of the diagonal (repeat it, "
                   "ascending; default 0.5%, 1%, 2%)")
@@ -300,6 +328,10 @@ Verb add_study(CLI::App& root) {
                   "horbelt: a view file (etalon/view/1), or fit, front, N/24, instead of the study's own five (repeat it)")
       ->type_name("FILE|NAME")
       ->check(not_empty());
+  app->add_option("--size", options->size, "horbelt: frames in pixels (default: a view file's, else 640x480)")
+      ->type_name("WxH")
+      ->check(not_empty());
+  add_terrain_options(*app, options->terrain);
   app->add_option("--data", options->data, "Folder of the real inputs (default $ETALON_DATA, else etalon in your cache)")
       ->type_name("DIR")
       ->check(not_empty());

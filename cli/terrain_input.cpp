@@ -7,11 +7,14 @@
 
 #include <fmt/format.h>
 
+#include "cli/common_options.h"
 #include "core/base/error.h"
 #include "core/io/image_file.h"
 
 namespace etalon::cli {
 namespace {
+
+constexpr double kSpacing_m = 10;
 
 // The same extent: a side of the image is the DEM's times one number, up to rounding to whole texels.
 void require_same_shape(const Image& dem, const Image& image, const std::string& image_path) {
@@ -29,6 +32,27 @@ int grid_bits(int grid) {
 }
 
 }  // namespace
+
+void add_terrain_options(CLI::App& verb, TerrainOptions& options) {
+  verb.add_option("--grid", options.grid, "Points of the terrain on a side, 2^k + 1 (default: the most that the DEM has)")
+      ->type_name("N")
+      ->check(CLI::Range(5, 4097));
+  verb.add_option("--texture-size", options.texture_size, "Side of the terrain's texture (default: the image's own texels)")
+      ->type_name("N")
+      ->check(CLI::Range(2, 4096));
+  verb.add_option("--height-scale", options.height_scale_m, "Metres of one step of a DEM of 8 or 16 bits (default 1)")
+      ->type_name("M")
+      ->check(number_between(1e-6, 1e3));
+}
+
+std::string terrain_arguments(const TerrainOptions& options) {
+  std::string text;
+  if (options.grid) text += fmt::format(" --grid {}", *options.grid);
+  if (options.texture_size != 0) text += fmt::format(" --texture-size {}", options.texture_size);
+  if (options.spacing_m) text += fmt::format(" --spacing {}", *options.spacing_m);
+  if (options.height_scale_m != 1) text += fmt::format(" --height-scale {}", options.height_scale_m);
+  return text;
+}
 
 Image cut_square(const Image& image, int column, int row, int size) {
   const int channels = image.format().channels < 3 ? 1 : 3;
@@ -73,15 +97,21 @@ TerrainInput load_terrain(const std::string& dem_path, const std::string& image_
   const int side = std::min(dem.width(), dem.height());
   terrain::DemOptions how;
   how.window = terrain::DemWindow{(dem.width() - side) / 2, (dem.height() - side) / 2, side};
-  how.dem_spacing = options.spacing_m;
+  how.dem_spacing = options.spacing_m.value_or(kSpacing_m);
+  how.sample_scale = options.height_scale_m;
   if (options.grid) how.grid_bits = grid_bits(*options.grid);
   TerrainInput input;
   try {
     terrain::DemResult result = terrain::make_height_field(dem, how);
     input.field = std::move(result.field), input.notes = std::move(result.notes), input.warnings = std::move(result.warnings);
   } catch (const InputError& error) {
-    throw InputError(dem_path + ": " + error.what());
+    const bool is_integer = dem.format().type == ChannelType::unorm16 || dem.format().type == ChannelType::unorm8;
+    throw InputError(dem_path + ": " + error.what() +
+                     (is_integer && dem.format().channels == 1
+                          ? fmt::format("; a step of it is taken as {} m (--height-scale)", how.sample_scale)
+                          : ""));
   }
+  if (!options.spacing_m) input.notes.push_back(fmt::format("heights are taken as {} m apart (--spacing)", kSpacing_m));
   // Whole texels: the image's window begins and ends at the texels nearest to the DEM's.
   const auto scaled = [](int n, int to, int from) {
     return static_cast<int>((2 * std::int64_t{n} * to + from) / (2 * std::int64_t{from}));

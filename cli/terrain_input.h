@@ -5,16 +5,25 @@
 #include <string>
 #include <vector>
 
+#include <CLI/App.hpp>
+
 #include "core/image/image.h"
 #include "core/terrain/height_field.h"
 
 namespace etalon::cli {
 
 struct TerrainOptions {
-  std::optional<int> grid;  ///< points on a side, 2^k + 1 of k 2..12; none: the most that the DEM holds
-  double spacing_m = 10;    ///< between samples of the DEM
-  int texture_size = 0;     ///< side of the texture; 0: the image's own texels, cut to the DEM's window
+  std::optional<int> grid;          ///< points on a side, 2^k + 1 of k 2..12; none: the most that the DEM holds
+  std::optional<double> spacing_m;  ///< between samples of the DEM; none: 10, and a note that says so
+  int texture_size = 0;             ///< side of the texture; 0: the image's own texels, cut to the DEM's window
+  double height_scale_m = 1;        ///< of one step of a DEM of integers
 };
+
+/// --grid, --texture-size and --height-scale.
+void add_terrain_options(CLI::App& verb, TerrainOptions& options);
+
+/// What to type for these options: " --grid 257 --spacing 30"; empty where all have their defaults.
+[[nodiscard]] std::string terrain_arguments(const TerrainOptions& options);
 
 struct TerrainInput {
   terrain::HeightField field;

@@ -47,7 +47,7 @@ void check_samples(const Image& dem, const DemWindow& window, const DemOptions& 
   if (bad == 0) return;
   throw InputError(
       fmt::format("DEM: {} of {} heights are no number, or no data: expected {} to {} m, got {} first at column {}, row {} from below; "
-                  "fill the holes, or choose a window without them",
+                  "fill the holes, or cut DEM and image to a part without them",
                   bad, static_cast<std::size_t>(window.size) * static_cast<std::size_t>(window.size), -kHighest_m, kHighest_m,
                   sample(dem, column, row, options), column, row));
 }

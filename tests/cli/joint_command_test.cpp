@@ -152,7 +152,7 @@ TEST_CASE("joint: rules, directions, kernels, grids, view files") {
                                                  "--texture-size", "32", "-o", "c", "--json", "-"}));
   CHECK(viewed["grid"] == 17);
   CHECK(viewed["texture_size"] == 32);
-  CHECK(viewed["notes"].size() == 4);  // window, resampling, the image's window and resampling
+  CHECK(viewed["notes"].size() == 5);  // window, resampling, spacing, the image's window and resampling
 }
 
 TEST_CASE("joint: inputs that do not fit are refused, doubtful ones warned of") {
@@ -192,6 +192,12 @@ TEST_CASE("joint: inputs that do not fit are refused, doubtful ones warned of") 
   CHECK(warned.exit_code == 1);
   CHECK(warned.err.find("8 bits") != std::string::npos);
   CHECK(document_of(warned)["warnings"].size() == 1);
+  Image steps(40, 33, {ChannelType::unorm16, 1});  // decimetres
+  for (int y = 0; y < 33; ++y)
+    for (int x = 0; x < 40; ++x) *steps.channels<std::uint16_t>(x, y) = static_cast<std::uint16_t>(12000 + 50 * x + 7 * y);
+  io::write_image(folder.path() / "steps.png", steps);
+  refused({"steps.png", "photo.png", "-o", "none"}, "a step of it is taken as 1 m (--height-scale)");
+  CHECK(joint(folder, {"steps.png", "photo.png", "--height-scale", "0.1", "-o", "steps"}).exit_code == 0);
   CHECK(joint(folder, {"dem.tif", "photo.png", "-o", "-"}).exit_code == 64);
   CHECK(joint(folder, {"dem.tif", "photo.png", "-o", "none", "--search", "best"}).exit_code == 64);
 }

@@ -323,5 +323,57 @@ TEST_CASE("study horbelt --view: what cannot be is refused") {
   refused({"--view", "dem.tif"}, 4, "dem.tif");
   refused({"--view", "away.json"}, 4, "dem, away: ");
   refused({"--view", "out/dem-down-view.json", "--report", "out"}, 64, "would overwrite --view");
-  check_refused({"study", "kim", "duck", "--view", "fit"}, 64, folder, "--view belongs to study horbelt");
+  check_refused({"study", "kim", "duck", "--view", "fit"}, 64, folder, "belong to study horbelt");
+}
+
+TEST_CASE("study horbelt on files of one's own: odd sizes, 8 and 16 bits, what is refused and what is said") {
+  const ScratchFolder folder;
+  etalon::Image bytes(41, 30, {etalon::ChannelType::unorm8, 1}), decimetres(41, 30, {etalon::ChannelType::unorm16, 1});
+  etalon::Image photo(82, 60, {etalon::ChannelType::unorm8, 4});
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 41; ++x) {
+      *bytes.channels<std::uint8_t>(x, y) = static_cast<std::uint8_t>(90 + (x - 20) * (x - 20) / 4 + y % 5);
+      *decimetres.channels<std::uint16_t>(x, y) = static_cast<std::uint16_t>(11000 + 3 * (x - 20) * (x - 20) + 17 * (y % 5));
+    }
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 82; ++x) {
+      auto* texel = photo.channels<std::uint8_t>(x, y);
+      texel[0] = static_cast<std::uint8_t>(3 * x), texel[1] = static_cast<std::uint8_t>((x / 6 + y / 4) % 2 * 90 + 80);
+      texel[2] = static_cast<std::uint8_t>(4 * y), texel[3] = 128;
+    }
+  etalon::io::write_image(folder.path() / "bytes.png", bytes);
+  etalon::io::write_image(folder.path() / "decimetres.png", decimetres);
+  etalon::io::write_image(folder.path() / "photo.png", photo);
+  const auto study = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"study", "horbelt"});
+    arguments.insert(arguments.end(), {"--quick", "--report", "out"});
+    return run_etalon(arguments, {.folder = folder.path()});
+  };
+  const CommandResult doubtful = study({"bytes.png", "photo.png", "--texture-size", "32", "--size", "96x64"});
+  CHECK(doubtful.exit_code == 1);
+  CHECK(doubtful.err.find("bytes.png: heights of 8 bits") != std::string::npos);
+  const std::string page = read_text(folder.path() / "out/index.html");
+  for (const char* said : {"Warning: bytes: heights of 8 bits", "of 41x30 heights, the 30x30 from column 5", "10 m apart (--spacing)",
+                           "of 82x60 texels, the 60x60", "alpha is left out", "brought to 32x32", "17² heights, 32² texels"}) {
+    CAPTURE(said);
+    CHECK(page.find(said) != std::string::npos);
+  }
+  CHECK(page.find("davosdorf") == std::string::npos);
+
+  const CommandResult scaled = study({"decimetres.png", "photo.png", "--height-scale", "0.1", "--spacing", "30", "--grid", "9"});
+  CAPTURE(scaled.err);
+  CHECK(scaled.exit_code == 0);
+  CHECK(read_text(folder.path() / "out/study.md")
+            .find("photo.png --grid 9 --spacing 30 --height-scale 0.1 --view decimetres-valley-view.json") != std::string::npos);
+  const auto refused = [&](std::vector<std::string> arguments, int exit_code, const char* mentions) {
+    arguments.insert(arguments.begin(), {"study", "horbelt"});
+    check_refused(arguments, exit_code, folder, mentions);
+  };
+  refused({"decimetres.png", "photo.png"}, 4, "a step of it is taken as 1 m (--height-scale)");
+  refused({"bytes.png", "bytes.png", "--grid", "20"}, 4, "--grid: expected 2^k + 1 points");
+  refused({"alps", "--quick", "--grid", "33"}, 64, "belongs to a DEM and an IMAGE of one's own");
+  refused({"--quick", "--spacing", "30"}, 64, "--spacing 30: belongs to a DEM");
+  refused({"bytes.png", "photo.png", "--size", "0x4"}, 64, "--size");
+  check_refused({"study", "kim", "duck", "--grid", "33"}, 64, folder, "belong to study horbelt");
+  check_refused({"study", "kim", "duck", "--spacing", "3"}, 64, folder, "--spacing belongs to study soucy and study horbelt");
 }

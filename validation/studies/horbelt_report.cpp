@@ -168,14 +168,13 @@ std::vector<StudyFigure> figures_of(const HorbeltSubjectResult& subject, const H
   figures.push_back(
       {.id = "figure123-" + stem,
        .title = "Figures 1 to 3: " + where,
-       .caption = "The full pair and the finest of all levels, as seen; from above: a mesh of about 8,000 triangles and the finest "
+       .caption = "The full pair and the finest of all levels, as seen; from above: a mesh and the finest "
                   "texture, with viewer (blue) and frustum (red).",
        .svg = "",
        .pictures = {{file("full"), "the full pair", v.full},
                     {file("finest"), "the finest levels: " + db_text(v.psnr_db({v.mesh_bits.size() - 1, v.texture_bits.size() - 1})),
                      v.finest},
-                    {file("mesh"), fmt::format("Figure 2: mesh {}, {} vertices", v.mapped_mesh, grouped(v.vertices[v.mapped_mesh])),
-                     v.mesh_map},
+                    {file("mesh"), fmt::format("Figure 2: mesh {}, {} triangles", v.mapped_mesh, grouped(v.mapped_faces)), v.mesh_map},
                     {file("texture"),
                      fmt::format("Figure 3: texture {}, {} coefficients", v.mapped_texture, grouped(v.significant[v.mapped_texture])),
                      v.texture_map}},
@@ -207,6 +206,8 @@ StudyReport horbelt_report(const HorbeltStudyResult& result) {
   for_each_view(result, [&](const HorbeltSubjectResult& subject, const HorbeltViewResult& view) {
     for (StudyFigure& figure : figures_of(subject, view)) report.figures.push_back(std::move(figure));
   });
+  std::string titles;
+  for (const HorbeltSubjectResult& subject : result.subjects) titles += (titles.empty() ? "" : "; ") + subject.title;
   report.notes = {
       "Bits are those of the streams' bytes, headers, checksums and flushes included; H(b) is the staircase of equation 3, never "
       "interpolated, no convex hull.",
@@ -214,9 +215,12 @@ StudyReport horbelt_report(const HorbeltStudyResult& result) {
       "black where nothing is.",
       "Meshes: the 4-8 hierarchy pruned by merging domains, weights by screen displacement; textures: 9/7 wavelets, coefficients outside "
       "the frustum never sent.",
-      "davosdorf: columns 32 to 526 of all rows, heights brought to 257², the image to 512². Only the procedural alps have the paper's "
-      "proportion of 257² to 1024².",
+      "The paper's terrain has 257² heights and 1024² texels. Here: " + titles + ".",
       "Drawn by " + result.exact_name + (result.device_name.empty() ? "." : ", compared with " + result.device_name + ".")};
+  for (const HorbeltSubjectResult& subject : result.subjects) {
+    for (const std::string& warning : subject.warnings) report.notes.push_back(fmt::format("Warning: {}: {}.", subject.name, warning));
+    for (const std::string& note : subject.notes) report.notes.push_back(fmt::format("{}: {}.", subject.name, note));
+  }
   return report;
 }
 

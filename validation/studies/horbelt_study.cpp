@@ -106,7 +106,9 @@ void fill_levels(HorbeltViewResult& result, const joint::JointLevels& levels) {
 void draw_maps(HorbeltViewResult& result, const HorbeltSubject& subject, const TerrainProblem& terrain) {
   while (result.mapped_mesh + 1 < result.vertices.size() && 2 * result.vertices[result.mapped_mesh] < kMappedFaces) ++result.mapped_mesh;
   result.mapped_texture = terrain.textures().size() - 1;
-  result.mesh_map = mesh_from_above(terrain.mesh(result.mapped_mesh), subject.field, result.view.view);
+  const Mesh mesh = terrain.mesh(result.mapped_mesh);
+  result.mapped_faces = mesh.face_count();
+  result.mesh_map = mesh_from_above(mesh, subject.field, result.view.view);
   result.texture_map = texture_from_above(terrain.textures()[result.mapped_texture], subject.field, result.view.view);
 }
 
@@ -221,7 +223,8 @@ HorbeltStudyResult run_horbelt_study(const std::vector<HorbeltSubject>& subjects
   for (std::size_t s = 0; s < subjects.size(); ++s) {
     const HorbeltSubject& subject = subjects[s];
     result.inputs.insert(result.inputs.end(), subject.inputs.begin(), subject.inputs.end());
-    result.subjects.push_back({subject.name, subject.title, subject.joint_command, !subject.views.empty(), {}});
+    result.subjects.push_back(
+        {subject.name, subject.title, subject.joint_command, subject.notes, subject.warnings, !subject.views.empty(), {}});
     std::vector<NamedTerrainView> views = subject.views;
     if (views.empty()) {
       views = terrain_views(exact, subject.field, options.width, options.height);

@@ -24,8 +24,9 @@ struct HorbeltSubject {
   terrain::HeightField field;
   Image image;  ///< RGB unorm8
   std::vector<VerifyInput> inputs;
-  std::vector<NamedTerrainView> views;  ///< names differ; empty: those of terrain_views()
-  std::string joint_command;            ///< that looks at the same terrain: "etalon joint dem.tif photo.png --grid 257"
+  std::vector<std::string> notes, warnings;  ///< what was done to the files, and what to doubt: for the report
+  std::vector<NamedTerrainView> views;       ///< names differ; empty: those of terrain_views()
+  std::string joint_command;                 ///< that looks at the same terrain: "etalon joint dem.tif photo.png --grid 257"
 };
 
 enum class HorbeltMethod : std::uint8_t {
@@ -89,6 +90,7 @@ struct HorbeltViewResult {
   Image full, finest;                               ///< pictures: of the full pair, and of the finest levels
   Image mesh_map, texture_map;                      ///< from above, with viewer and frustum (Figures 2 and 3)
   std::size_t mapped_mesh = 0, mapped_texture = 0;  ///< the levels that they show
+  std::size_t mapped_faces = 0;                     ///< of that mesh: about 8,000, or all that the finest has
   double level_seconds = 0, search_seconds = 0, exhaustive_seconds = 0;
   ClassCounts checked;  ///< texels of the frames drawn on both renderers
   std::size_t checked_frames = 0;
@@ -98,6 +100,7 @@ struct HorbeltViewResult {
 
 struct HorbeltSubjectResult {
   std::string name, title, joint_command;
+  std::vector<std::string> notes, warnings;
   bool has_own_views = false;  ///< not those of terrain_views()
   std::vector<HorbeltViewResult> views;
 };
