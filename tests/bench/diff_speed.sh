@@ -1,15 +1,23 @@
 #!/usr/bin/env bash
-# diff_speed.sh ETALON [ROUNDS [SIZE]]: the time of `etalon diff` against idiff's and `gm compare`'s for one pair of SIZE² texels (4096) that differ,
-# in turns: etalon, idiff, gm, etalon, … (5 rounds). Prints medians and the medians of the quotients within a round. The pair: the embedded head by
-# nearest and by linear lookup, as PNG (RGBA, 8 bits), so that texels differ everywhere on it; each program reads both files and compares all.
+# diff_speed.sh ETALON [ROUNDS [SIZE | A.png B.png]]: the time of `etalon diff` against idiff's and `gm compare`'s for one pair of SIZE² texels (4096) that
+# differ, in turns: etalon, idiff, gm, etalon, … (5 rounds). Prints medians and the medians of the quotients within a round. The pair: the embedded head by
+# nearest and by linear lookup, as PNG (RGBA, 8 bits), so that texels differ everywhere on it; or the two given. Each program reads both files and
+# compares all.
 # Exit code: 0 measured; 1 neither rival is installed (packages openimageio-tools, graphicsmagick); 2 something went wrong.
 set -eu
-etalon=$1 rounds=${2:-5} size=${3:-4096}
+etalon=$(realpath -- "$1") rounds=${2:-5} size=${3:-4096}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cd "$work"
-"$etalon" make head --quiet -o head.obj
-for filter in nearest linear; do "$etalon" render head.obj --size "$size" --filter $filter --quiet -o $filter.png; done
+if [ $# -eq 4 ]; then
+  cp -- "$3" "$work/a.png"
+  cp -- "$4" "$work/b.png"
+  cd "$work"
+else
+  cd "$work"
+  "$etalon" make head --quiet -o head.obj
+  "$etalon" render head.obj --size "$size" --filter nearest --quiet -o a.png
+  "$etalon" render head.obj --size "$size" --filter linear --quiet -o b.png
+fi
 rivals=()
 command -v idiff >/dev/null && rivals+=("idiff")
 command -v gm >/dev/null && rivals+=("gm compare -metric MAE")
@@ -25,15 +33,15 @@ timed() {  # FILE PROGRAM…: its wall time in ms, to FILE; both pictures are in
 }
 median() { sort -n "$1" | awk '{ v[NR] = $1 } END { print NR % 2 ? v[(NR + 1) / 2] : (v[NR / 2] + v[NR / 2 + 1]) / 2 }'; }
 
-cat nearest.png linear.png >/dev/null
+cat a.png b.png >/dev/null
 for ((n = 0; n < rounds; ++n)); do
-  timed ours "$etalon" diff nearest.png linear.png
+  timed ours "$etalon" diff a.png b.png
   for k in "${!rivals[@]}"; do
     # shellcheck disable=SC2086 # a program and its options
-    timed "rival$k" ${rivals[$k]} nearest.png linear.png
+    timed "rival$k" ${rivals[$k]} a.png b.png
   done
 done
-printf '%s² RGBA8, PNG of %s and %s bytes, %d rounds, %d processors\n' "$size" "$(stat -c %s nearest.png)" "$(stat -c %s linear.png)" "$rounds" "$(nproc)"
+printf 'PNG of %s and %s bytes, %d rounds, %d processors\n' "$(stat -c %s a.png)" "$(stat -c %s b.png)" "$rounds" "$(nproc)"
 printf 'etalon diff: %.0f ms\n' "$(awk -v t="$(median ours)" 'BEGIN { print t / 1000 }')"
 for k in "${!rivals[@]}"; do
   paste "rival$k" ours | awk '{ print $1 / $2 }' >"quotients$k"
