@@ -8,13 +8,11 @@ namespace etalon::io {
 
 std::string printable(std::string_view text, std::size_t limit) {
   std::string result;
-  for (const char c : text.substr(0, limit)) {
-    if (c >= 0x20 && c < 0x7F)
-      result += c;
-    else
-      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  for (const char c : text) {
+    const std::string shown = c >= 0x20 && c < 0x7F ? std::string(1, c) : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    if (result.size() + shown.size() > limit) return result + "…";
+    result += shown;
   }
-  if (text.size() > limit) result += "…";
   return result;
 }
 

@@ -7,7 +7,7 @@
 
 namespace etalon::io {
 
-/// `text` for a message: at most `limit` characters, then "…"; whatever is not printable ASCII becomes "\xNN". Never a line break.
+/// `text` for a message: at most `limit` characters, then "…"; whatever is not printable ASCII becomes "\xNN", four of them. Never a line break.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 40);
 
 /// The first line of a library's message, printable.

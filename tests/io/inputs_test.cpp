@@ -38,6 +38,8 @@ TEST_CASE("messages: one printable line whatever the file holds") {
   CHECK(printable("a b") == "a b");
   CHECK(printable("a\nb\xff") == "a\\x0ab\\xff");
   CHECK(printable("abcdef", 3) == "abc…");
+  CHECK(printable("abc", 3) == "abc");
+  CHECK(printable("\xff\xff\xff", 11) == "\\xff\\xff…");  // the limit is of what is shown
   CHECK(first_line("one\ntwo") == "one");
   CHECK(input_error([] { fail_at_line("f.obj", 7, "what"); }) == "f.obj:7: what");
   CHECK(input_error([] { fail_at_byte("f.ply", 70, "what"); }) == "f.ply: byte 70: what");
