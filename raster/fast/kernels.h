@@ -102,9 +102,9 @@ struct alignas(64) SmallTriangles {
 /// Lookups of kLookupBlock at a time: texels (i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1) of four bytes with weights (1 − fx)(1 − fy), fx(1 − fy) …
 inline constexpr std::size_t kLookupBlock = 16;
 struct LookupBlocks {
-  const std::uint32_t* texel;   ///< (i, j)
-  const float *fx, *fy;         ///< in [0, 1], within 2^-25 of the exact ones
-  const std::uint32_t* wanted;  ///< R, G, B, 255 from the lowest byte on
+  const std::uint32_t* texel;                 ///< (i, j)
+  const float *fx, *fy;                       ///< in [0, 1], within 2^-25 of the exact ones
+  const std::array<std::uint8_t, 4>* wanted;  ///< R, G, B, 255
 };
 /// Textures that are looked up at once.
 inline constexpr std::size_t kGroupTextures = 8;

@@ -49,7 +49,7 @@ CoordinatePicture::Reference CoordinatePicture::reference(const Image& wanted) c
     for (std::size_t n = begin; n < end; ++n) {
       const std::uint8_t* const t = texels + 4 * std::size_t{at_[n]};
       // Alpha 255, as all texels of a texture have.
-      result.covered[n] = t[0] | std::uint32_t{t[1]} << 8 | std::uint32_t{t[2]} << 16 | 0xFF000000u;
+      result.covered[n] = {t[0], t[1], t[2], 255};
       covered[begin / kSlice] += energy(at_[n]);
     }
   });
@@ -60,10 +60,10 @@ CoordinatePicture::Reference CoordinatePicture::reference(const Image& wanted) c
 
 std::uint64_t CoordinatePicture::square(const std::uint8_t* texels, std::size_t lookup, const Reference& reference) const {
   const std::array<std::uint8_t, 3> drawn = color(texels, lookup);
-  const std::uint32_t wanted = reference.covered[lookup];
+  const std::array<std::uint8_t, 4>& wanted = reference.covered[lookup];
   std::uint64_t sum = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    const int difference = drawn[c] - static_cast<int>(wanted >> (8 * c) & 255);
+    const int difference = drawn[c] - wanted[c];
     sum += static_cast<std::uint64_t>(difference * difference);
   }
   return sum;

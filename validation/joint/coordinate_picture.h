@@ -58,8 +58,8 @@ class CoordinatePicture {
 
   /// A picture that others are compared with: made once for all textures.
   struct Reference {
-    std::vector<std::uint32_t> covered;  ///< its texels where this picture is covered, RGBA of 8 bits
-    std::uint64_t elsewhere = 0;         ///< sum of the squares of its R, G, B where it is not
+    std::vector<std::array<std::uint8_t, 4>> covered;  ///< its texels where this picture is covered, alpha 255
+    std::uint64_t elsewhere = 0;                       ///< sum of the squares of its R, G, B where it is not
   };
   /// `wanted`: RGBA unorm8, the frame's size.
   [[nodiscard]] Reference reference(const Image& wanted) const;
