@@ -14,6 +14,8 @@ namespace {
 
 // A pattern is told where it holds most of its own texels and leaves nearly all others alone.
 constexpr double kInside = 0.4, kOutside = 0.05;
+// Of other content all over, that much shows.
+constexpr double kThroughout = 0.75;
 // Fewer texels lie together by chance.
 constexpr std::size_t kFewest = 16;
 
@@ -123,6 +125,12 @@ void tell_of_images(const std::vector<Seen>& texels, std::size_t images, std::si
     told.push_back(fmt::format("they show image {} ({:.3g} % of its texels); the other images are right", bad.front(),
                                100 * shares[bad.front()].value()));
   for (const std::uint32_t k : bad) tell_of_image(texels, k, told);
+  if (!told.empty() || bad.size() != 1) return;
+  const Share& share = shares[bad.front()];
+  if (share.value() >= kThroughout && static_cast<double>(wrong - share.wrong) <= kOutside * static_cast<double>(wrong))
+    told.push_back(fmt::format(
+        "they lie all over what shows image {} ({:.3g} % of its texels): other content throughout, as of a stale texture, would do that",
+        bad.front(), 100 * share.value()));
 }
 
 void tell_of_frame(const std::vector<Seen>& texels, std::vector<std::string>& told) {

@@ -60,6 +60,14 @@ TEST_CASE("patterns: one image of two") {
   CHECK(told[0].find("the other images are right") != std::string::npos);
 }
 
+TEST_CASE("patterns: the only image, all over") {
+  Case c;
+  const auto told = c.patterns([](int x, int y) { return (x + 3 * y) % 8 != 0; });
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].find("they lie all over what shows image 0 (87.5 % of its texels): other content throughout, as of a stale texture") == 0);
+  CHECK(c.patterns([](int x, int y) { return (x + y) % 2 == 0; }).empty());  // half of them: no
+}
+
 TEST_CASE("patterns: one size of the footprint") {
   Case c;
   // The lower half is magnified, the upper one minified; both show all of the image.
