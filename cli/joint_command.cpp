@@ -37,7 +37,7 @@ using Json = nlohmann::ordered_json;
 using validation::grouped;
 
 struct Options {
-  std::string dem, image, view, output, search = "prune", rule = "slope", kernel = "9/7", size;
+  std::string dem, image, view, output, search = "prune", rule = "slope", kernel = "9/7", pyramid = "significance", size;
   std::int64_t meshes = 60, textures = 32, budget_bytes = 0;
   TerrainOptions terrain;
   double height_unit = 0.25;
@@ -136,6 +136,7 @@ Json document_of(const Options& options, const TerrainInput& input, const std::v
   document["search"] = options.search;
   document["rule"] = options.rule;
   document["kernel"] = options.kernel;
+  document["pyramid"] = options.pyramid;
   document["grid"] = input.field.side();
   document["texture_size"] = input.image.width();
   document["width"] = terrain.frame().width;
@@ -213,6 +214,8 @@ int run(const Options& options) {
     open_joint_stream(options.dem, options.output, console);
     return kExitDone;
   }
+  if (options.pyramid == "distance" && options.textures > static_cast<std::int64_t>(joint::kMostDistances))
+    throw UsageError(fmt::format("--pyramid distance: expected at most {} --textures, got {}", joint::kMostDistances, options.textures));
   CallFiles files;
   files.add_input(options.dem, "DEM");
   files.add_input(options.image, "IMAGE");
@@ -229,6 +232,7 @@ int run(const Options& options) {
   joint::LevelOptions levels{.meshes = static_cast<std::size_t>(options.meshes),
                              .textures = static_cast<std::size_t>(options.textures),
                              .height_unit_m = options.height_unit};
+  if (options.pyramid == "distance") levels.pyramid = joint::TexturePyramid::distance;
   if (options.kernel == "5/3") levels.kernel = wavelet::Kernel::reversible_5_3;
   console.progress("levels", 0, 1);
   validation::TerrainProblem terrain(exact, input.field, input.image, chosen_view(options, input.field), levels);
@@ -282,6 +286,12 @@ Verb add_joint(CLI::App& root) {
       ->type_name("M")
       ->check(number_between(1e-6, 1e3));
   app->add_option("--kernel", options->kernel, "Wavelet (default 9/7)")->type_name("9/7|5/3")->check(CLI::IsMember({"9/7", "5/3"}));
+  app->add_option("--pyramid", options->pyramid,
+                  "Levels of the texture: ever more significant coefficients (default), or what can be told apart from d_0·2^(i/k), d_0 "
+                  "being the view's "
+                  "own distance, each complete (at most 43 --textures)")
+      ->type_name("significance|distance")
+      ->check(CLI::IsMember({"significance", "distance"}));
   app->add_option("-o,--output", options->output,
                   "Folder: joint.ejt (every prefix a mesh and a texture), path.csv, the model of the budget, its picture and the full one")
       ->required()

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <span>
 
+#include <fmt/format.h>
+
 #include "core/base/error.h"
 #include "core/joint/geometric.h"
 #include "core/joint/joint_stream.h"
@@ -25,17 +27,36 @@ void make_meshes(const terrain::HeightField& field, const terrain::TerrainView& 
   result.mesh_stream = terrain::encode_terrain(result.field, result.levels, view);
 }
 
+// A pyramid of distances sends its coefficients completely: quantised to steps of 8, which is 40 dB, as the rest is worth no bits beside a mesh's errors.
+constexpr int kPyramidStepExponent = 3;
+
 void make_textures(const Image& image, const LevelOptions& options, JointLevels& result) {
+  const bool by_distance = options.pyramid == TexturePyramid::distance;
+  if (by_distance && (options.textures < 2 || options.textures > kMostDistances))
+    throw InputError(fmt::format("textures by distance: expected 2 to {} levels, got {}", kMostDistances, options.textures));
+  if (by_distance) result.pyramid_steps = static_cast<int>(options.textures) - 1;
   const int levels = wavelet::default_levels(image.width(), image.height());
   const auto mesh_stream = std::as_bytes(std::span(result.mesh_stream.bytes));
-  result.delays = delays_of(terrain::read_header(mesh_stream, terrain::kMaxGridBits), image.width(), image.height(), levels);
+  result.delays =
+      delays_of(terrain::read_header(mesh_stream, terrain::kMaxGridBits), image.width(), image.height(), levels, result.pyramid_steps);
   wavelet::EncodeOptions encode{.kernel = options.kernel, .levels = levels, .delays = result.delays};
-  encode.significant_shares = geometric_progression(options.from, options.to, options.textures);
-  encode.stops_at_last_share = true;
+  if (by_distance) {
+    encode.step_exponent = kPyramidStepExponent;
+    for (int n = 0; n <= result.pyramid_steps; ++n) encode.complete_delays.push_back(n * wavelet::kPyramidStepPlanes);
+  } else {
+    encode.significant_shares = geometric_progression(options.from, options.to, options.textures);
+    encode.stops_at_last_share = true;
+  }
   wavelet::EncodedTexture encoded = wavelet::encode_texture(image, encode);
-  for (const wavelet::StreamPoint& point : encoded.points)
-    if (result.texture_ends_bytes.empty() || point.bytes > result.texture_ends_bytes.back())
+  for (std::size_t n = 0; n < encoded.points.size(); ++n) {
+    const wavelet::StreamPoint& point = encoded.points[n];
+    if (by_distance && point.significant == 0) continue;
+    if (result.texture_ends_bytes.empty() || point.bytes > result.texture_ends_bytes.back()) {
       result.texture_ends_bytes.push_back(point.bytes), result.significant.push_back(point.significant);
+      if (by_distance) result.texture_steps.push_back(0);
+    }
+    if (by_distance) result.texture_steps.back() = static_cast<int>(n);
+  }
   if (result.texture_ends_bytes.empty()) throw InputError("texture: nothing of it is seen in this view");
   result.texture_stream = std::move(encoded.bytes);
   result.texture_stream.resize(result.texture_ends_bytes.back());
@@ -50,11 +71,15 @@ std::vector<std::uint64_t> bits_of(const std::vector<std::size_t>& ends_bytes, s
 
 }  // namespace
 
-wavelet::Delays delays_of(const terrain::StreamHeader& mesh, int texture_width, int texture_height, int levels) {
+wavelet::Delays delays_of(const terrain::StreamHeader& mesh, int texture_width, int texture_height, int levels, int pyramid_steps) {
   if (!mesh.view) return {};
   const terrain::HeightField& grid = mesh.grid;
   const TerrainExtent extent{grid.bits, grid.spacing, grid.uv_start, grid.uv_step, mesh.lowest * grid.unit, mesh.highest * grid.unit};
-  return wavelet::view_delays(texel_view(extent, *mesh.view, texture_width, texture_height), {.levels = levels});
+  const wavelet::TexelView seen = texel_view(extent, *mesh.view, texture_width, texture_height);
+  if (pyramid_steps == 0) return wavelet::view_delays(seen, {.levels = levels});
+  return wavelet::distance_pyramid(seen,
+                                   {.levels = levels, .steps = pyramid_steps, .per_octave_num = 3 * pyramid_steps, .per_octave_den = 10})
+      .delays;
 }
 
 JointLevels make_joint_levels(const terrain::HeightField& field, const Image& image, const terrain::TerrainView& view,
@@ -73,6 +98,11 @@ std::vector<Image> texture_levels(const JointLevels& levels) {
   wavelet::decode_prefixes(levels.texture_stream, levels.texture_ends_bytes, levels.delays,
                            [&](std::size_t j, wavelet::DecodedTexture decoded) { images[j] = std::move(decoded.image); });
   return images;
+}
+
+double distance_of(const JointLevels& levels, std::size_t j) {
+  if (levels.pyramid_steps == 0) return 1;
+  return wavelet::power_of_two(10 * (levels.pyramid_steps - levels.texture_steps[j]), 3 * levels.pyramid_steps);
 }
 
 Problem problem_of(const JointLevels& levels, std::function<std::uint64_t(std::size_t, std::size_t)> error) {

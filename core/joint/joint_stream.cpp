@@ -49,6 +49,7 @@ void put_segment(std::vector<std::byte>& out, Kind kind, std::span<const std::by
 // The whole segments of a prefix, put together again by kind.
 struct Segments {
   std::size_t mesh_levels = 0, texture_levels = 0;  ///< of the header
+  int pyramid_steps = 0;
   std::vector<std::byte> mesh, texture;
   std::size_t meshes = 0, textures = 0;
   std::size_t bytes_used = 0;
@@ -60,9 +61,12 @@ Segments read_segments(std::span<const std::byte> bytes) {
     if (bytes[n] != static_cast<std::byte>(kSignature[n])) refuse(n, "not the signature of a joint stream");
   if (get_u32(bytes, 16) != checksum(bytes.first(16))) refuse(16, "the header's checksum is wrong");
   Segments s;
-  s.mesh_levels = get_u32(bytes, 8), s.texture_levels = get_u32(bytes, 12);
+  s.mesh_levels = get_u32(bytes, 8), s.texture_levels = get_u32(bytes, 12) & 0xFFFF;
+  s.pyramid_steps = static_cast<int>(get_u32(bytes, 12) >> 16);
   if (s.mesh_levels < 1 || s.mesh_levels > kMostLevels || s.texture_levels < 1 || s.texture_levels > kMostLevels)
     refuse(8, fmt::format("expected 1 to {} levels, got {} and {}", kMostLevels, s.mesh_levels, s.texture_levels));
+  if (s.pyramid_steps > wavelet::kMaxPyramidSteps)
+    refuse(14, fmt::format("expected at most {} steps of distance, got {}", wavelet::kMaxPyramidSteps, s.pyramid_steps));
   s.bytes_used = kJointHeaderBytes;
   while (bytes.size() - s.bytes_used >= kSegmentHeadBytes) {
     const std::size_t at = s.bytes_used, length = get_u32(bytes, at + 1);
@@ -99,7 +103,7 @@ std::vector<std::byte> encode_joint(const JointLevels& levels, const Path& path)
   std::vector<std::byte> out;
   for (const char c : kSignature) out.push_back(static_cast<std::byte>(c));
   put_u32(out, static_cast<std::uint32_t>(mesh_ends.size()));
-  put_u32(out, static_cast<std::uint32_t>(texture_ends.size()));
+  put_u32(out, static_cast<std::uint32_t>(texture_ends.size()) | static_cast<std::uint32_t>(levels.pyramid_steps) << 16);
   put_u32(out, checksum(out));
   Pair next{0, 0};
   for (const PathPoint& point : path.points) {
@@ -123,7 +127,7 @@ DecodedJoint decode_joint(std::span<const std::byte> bytes, const wavelet::Decod
   const wavelet::TextureHeader texture = wavelet::read_texture_header(s.texture, limits);
   wavelet::Delays delays;
   if (texture.has_delays)
-    delays = delays_of(terrain::read_header(s.mesh, terrain::kMaxGridBits), texture.width, texture.height, texture.levels);
+    delays = delays_of(terrain::read_header(s.mesh, terrain::kMaxGridBits), texture.width, texture.height, texture.levels, s.pyramid_steps);
   result.texture = wavelet::decode_texture(s.texture, delays, limits).image;
   result.pair = {s.meshes - 1, s.textures - 1};
   result.mesh_levels = s.mesh_levels, result.texture_levels = s.texture_levels;

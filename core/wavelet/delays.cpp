@@ -121,13 +121,11 @@ Delays view_delays(const TexelView& view, const ViewDelayOptions& options) {
 }
 
 Pyramid distance_pyramid(const TexelView& view, const PyramidOptions& options) {
-  // Planes that one step of the pyramid stays ahead of the next: more than all bit-planes of all bands have together.
-  constexpr int kStepPlanes = 48;
   require_view(view, options.levels);
-  if (options.steps < 0 || options.steps * kStepPlanes > kMaxDelay || options.per_octave_num < 1 || options.per_octave_num > 1000 ||
+  if (options.steps < 0 || options.steps > kMaxPyramidSteps || options.per_octave_num < 1 || options.per_octave_num > 1000 ||
       options.per_octave_den < 1 || options.per_octave_den > 1000)
-    throw InputError(fmt::format("pyramid: expected 0 to {} steps and k of two numbers in 1..1000, got {} and {}/{}",
-                                 kMaxDelay / kStepPlanes, options.steps, options.per_octave_num, options.per_octave_den));
+    throw InputError(fmt::format("pyramid: expected 0 to {} steps and k of two numbers in 1..1000, got {} and {}/{}", kMaxPyramidSteps,
+                                 options.steps, options.per_octave_num, options.per_octave_den));
   const std::vector<BlockMaxima> maxima = block_maxima(view, options.levels);
   std::vector<double> least;  // pixels that a wave must have at d_0 to be resolvable at d_i
   for (int i = 0; i <= options.steps; ++i)
@@ -140,12 +138,12 @@ Pyramid distance_pyramid(const TexelView& view, const PyramidOptions& options) {
     if (band.orientation == Orientation::ll) return 0;
     const auto beyond = std::ranges::upper_bound(least, wave_pixels(band, seen));
     if (beyond == least.begin()) return kNeverSent;
-    return static_cast<int>(least.end() - beyond) * kStepPlanes;
+    return static_cast<int>(least.end() - beyond) * kPyramidStepPlanes;
   });
   pyramid.coefficients.resize(static_cast<std::size_t>(options.steps) + 1);
   for (const std::int16_t delay : pyramid.delays.planes) {
     if (delay == kNeverSent) continue;
-    const int coarsest = options.steps - delay / kStepPlanes;
+    const int coarsest = options.steps - delay / kPyramidStepPlanes;
     for (int i = 0; i <= coarsest; ++i) ++pyramid.coefficients[static_cast<std::size_t>(i)];
   }
   return pyramid;

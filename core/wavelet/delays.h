@@ -53,16 +53,20 @@ struct ViewDelayOptions {
 /// none of whose texels is seen, or which are not resolvable on any of them, are never sent; the coarsest low-pass band is, where seen.
 [[nodiscard]] Delays view_delays(const TexelView& view, const ViewDelayOptions& options);
 
+/// Bit-planes by which each step of a pyramid stays ahead of the next: more than all bit-planes of all bands have together.
+inline constexpr int kPyramidStepPlanes = 48;
+inline constexpr int kMaxPyramidSteps = kMaxDelay / kPyramidStepPlanes;
+
 struct PyramidOptions {
   int levels = 0;                                ///< of the transform
-  int steps = 31;                                ///< M: distances d_0 .. d_M, T_M being the coarsest
+  int steps = 31;                                ///< M: distances d_0 .. d_M, T_M being the coarsest; 0..kMaxPyramidSteps
   int per_octave_num = 93, per_octave_den = 10;  ///< k = num/den: d_i = d_0·2^(i/k)
   double least_pixels = 1;
 };
 
 /// [Horbelt, Balmelli & Vetterli, section 2.2] The pyramid T_0 … T_M of a texture seen at distance d_0 (`view`) and from d_i = d_0·2^(i/k): T_i has
 /// the coefficients that are resolvable where every texel is 2^(i/k) times smaller. The delays put all coefficients of T_M before those that
-/// T_(M−1) adds, and so on to T_0; kNeverSent is what even T_0 lacks.
+/// T_(M−1) adds, and so on to T_0: what T_(M−n) adds has a delay of n·kPyramidStepPlanes; kNeverSent is what even T_0 lacks.
 struct Pyramid {
   Delays delays;
   std::vector<std::size_t> coefficients;  ///< [i]: of T_i, per channel; i = 0 .. steps

@@ -74,6 +74,46 @@ class PointReader {
   std::size_t significant_ = 0;
 };
 
+// The same for points at the ends of passes.
+class PassEndReader {
+ public:
+  PassEndReader(std::span<const std::byte> bytes, std::span<const std::size_t> ends) : decoder_(bytes, bytes.size()), ends_(ends) {
+    record();
+  }
+
+  bool code(bool, AdaptiveBit& context) {
+    if (points.size() == ends_.size() || !decoder_.is_determined(context.probability())) throw CodingEnds{};
+    const bool bit = decoder_.decode(context.probability());
+    context.learn(bit);
+    return bit;
+  }
+  void on_significant() { ++significant_; }
+  void on_pass_end() { ++passes_, record(); }
+  std::vector<StreamPoint> points;
+
+ private:
+  void record() {
+    while (points.size() < ends_.size() && ends_[points.size()] == passes_) points.push_back({decoder_.needed_bytes(), significant_});
+  }
+  PrefixDecoder decoder_;
+  std::span<const std::size_t> ends_;
+  std::size_t passes_ = 0, significant_ = 0;
+};
+
+// For each delay the number of passes up to the last with bits of coefficients of no longer delay: bit b >= 0 comes at plane b − delay.
+std::vector<std::size_t> pass_ends(const std::vector<int>& delays, const std::vector<Pass>& passes) {
+  std::vector<std::size_t> ends;
+  for (const int delay : delays) {
+    if (delay < 0 || delay > kMaxDelay)
+      throw InputError(fmt::format("texture stream: expected delays of 0 to {}, got {}", kMaxDelay, delay));
+    std::size_t end = passes.size();
+    while (end > 0 && passes[end - 1].plane < -delay) --end;
+    if (!ends.empty() && end < ends.back()) throw InputError("texture stream: expected ascending delays");
+    ends.push_back(end);
+  }
+  return ends;
+}
+
 std::vector<std::size_t> point_targets(const std::vector<double>& shares, std::size_t total) {
   std::vector<std::size_t> targets;
   double before = 0;
@@ -87,10 +127,9 @@ std::vector<std::size_t> point_targets(const std::vector<double>& shares, std::s
   return targets;
 }
 
-std::vector<StreamPoint> read_points(const EncodePlan& plan, const EncodeOptions& options, std::span<const std::byte> body,
-                                     const std::vector<std::size_t>& targets) {
+template <class PointReader>
+std::vector<StreamPoint> read_points(const EncodePlan& plan, const EncodeOptions& options, PointReader reader) {
   std::vector<BandState> states = fresh_states(plan.header, plan.bands, options.delays);
-  PointReader reader(body, targets);
   const std::vector<BandTruth> no_truths;
   try {
     PlaneCoder(states, no_truths, reader).run(plan.passes);
@@ -104,7 +143,10 @@ std::vector<StreamPoint> read_points(const EncodePlan& plan, const EncodeOptions
 EncodedTexture encode_texture(const Image& image, const EncodeOptions& options) {
   const DefaultFloatEnvironment environment;
   EncodePlan plan = plan_encoding(image, options);
-  std::vector<std::size_t> targets = point_targets(options.significant_shares, plan.significant_total);
+  if (!options.significant_shares.empty() && !options.complete_delays.empty())
+    throw InputError("texture stream: expected points by shares or by delays, got both");
+  const std::vector<std::size_t> targets = point_targets(options.significant_shares, plan.significant_total),
+                                 ends = pass_ends(options.complete_delays, plan.passes);
 
   EncodedTexture result;
   result.significant_total = plan.significant_total;
@@ -121,15 +163,14 @@ EncodedTexture encode_texture(const Image& image, const EncodeOptions& options) 
     result.is_complete = false;
   }
   const std::string body = writer.finish(result.is_complete);
-  const auto* body_bytes = reinterpret_cast<const std::byte*>(body.data());
-
-  std::size_t used = body.size();
-  if (!targets.empty()) {
-    result.points = read_points(plan, options, {body_bytes, body.size()}, targets);
-    if (options.stops_at_last_share && !result.is_complete && result.points.size() == targets.size()) used = result.points.back().bytes;
-    for (StreamPoint& point : result.points) point.bytes += header_size;
-  }
-  result.bytes.insert(result.bytes.end(), body_bytes, body_bytes + used);
+  const auto settled = std::as_bytes(std::span(body));
+  std::size_t used = settled.size();
+  if (!targets.empty()) result.points = read_points(plan, options, PointReader(settled, targets));
+  if (!ends.empty()) result.points = read_points(plan, options, PassEndReader(settled, ends));
+  if (options.stops_at_last_share && !targets.empty() && !result.is_complete && result.points.size() == targets.size())
+    used = result.points.back().bytes;
+  for (StreamPoint& point : result.points) point.bytes += header_size;
+  result.bytes.insert(result.bytes.end(), settled.begin(), settled.begin() + static_cast<std::ptrdiff_t>(used));
   return result;
 }
 

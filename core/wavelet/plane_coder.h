@@ -2,7 +2,8 @@
 // EZBC [Hsiang & Woods 2000, "Embedded image coding using zeroblocks of subband/wavelet coefficients and context modeling"] with the contexts of
 // neighbours of EBCOT [Taubman 2000] in graded form.
 //
-// A Coder has `bool code(bool truth, AdaptiveBit&)`: an encoder writes `truth` and gives it back, a decoder gives what it reads.
+// A Coder has `bool code(bool truth, AdaptiveBit&)`: an encoder writes `truth` and gives it back, a decoder gives what it reads; and on_significant().
+// One that has on_pass_end() too hears of it after each pass.
 #pragma once
 
 #include <algorithm>
@@ -38,6 +39,7 @@ class PlaneCoder {
       contexts_ = &models_.of_channel(state_->channel);
       plane_ = pass.plane;
       pass.refines ? refine() : find_significant();
+      if constexpr (requires { coder_.on_pass_end(); }) coder_.on_pass_end();
     }
   }
 

@@ -25,11 +25,14 @@ struct EncodeOptions {
   Delays delays;           ///< of the image's size and these levels, or empty
   /// Ascending shares, in (0, 1], of the coefficients that are significant (not 0) in the whole stream; for each the stream's point is recorded.
   std::vector<double> significant_shares;
+  /// Ascending delays; for each the stream's point is recorded at which all bits of the coefficients of no longer delay are known, which means whole
+  /// levels of a pyramid. Not together with shares.
+  std::vector<int> complete_delays;
   bool stops_at_last_share = false;  ///< the stream ends with the last point instead of being complete
   std::size_t max_bytes = 0;         ///< the stream ends here at the latest; 0: no limit. Points behind it are not recorded
 };
 
-/// The shortest prefix that tells at least `significant` coefficients from 0, with their signs.
+/// The shortest prefix that tells at least `significant` coefficients from 0, with their signs; or that holds all of a delay's.
 struct StreamPoint {
   std::size_t bytes = 0;
   std::size_t significant = 0;
@@ -37,12 +40,12 @@ struct StreamPoint {
 
 struct EncodedTexture {
   std::vector<std::byte> bytes;
-  std::vector<StreamPoint> points;    ///< one a share, ascending; several shares of a tiny picture may be one point
+  std::vector<StreamPoint> points;    ///< one a share or delay, ascending; several of a tiny picture may be one point
   std::size_t significant_total = 0;  ///< coefficients that are not 0, over all channels, never-sent ones apart
   bool is_complete = false;           ///< nothing was cut: 5/3 without never-sent coefficients is lossless
 };
 
-/// Formats other than 1 or 3 channels of 8 bits, delays of another size, shares that do not ascend: InputError.
+/// Formats other than 1 or 3 channels of 8 bits, delays of another size, shares or delays that do not ascend, both of them: InputError.
 [[nodiscard]] EncodedTexture encode_texture(const Image& image, const EncodeOptions& options = {});
 
 struct TextureHeader {

@@ -155,6 +155,19 @@ TEST_CASE("joint: rules, directions, kernels, grids, view files") {
   CHECK(viewed["notes"].size() == 5);  // window, resampling, spacing, the image's window and resampling
 }
 
+TEST_CASE("joint --pyramid distance: a file whose textures are by distance opens as its model") {
+  ScratchFolder folder;
+  small_terrain(folder);
+  const json whole = document_of(joint(folder, {"dem.tif", "photo.png", "--pyramid", "distance", "-o", "whole", "--json", "-"}));
+  CHECK(whole["pyramid"] == "distance");
+  CHECK(run_etalon({"joint", "whole/joint.ejt", "-o", "opened"}, {.folder = folder.path()}).exit_code == 0);
+  for (const char* file : {"model.obj", "model_texture.png", "picture.png"})
+    CHECK(read_text(folder.path() / "opened" / file) == read_text(folder.path() / "whole" / file));
+  CHECK(document_of(joint(folder, {"dem.tif", "photo.png", "-o", "other", "--json", "-"}))["pyramid"] == "significance");
+  check_refused({"joint", "dem.tif", "photo.png", "--pyramid", "distance", "--textures", "44", "-o", "none"}, 64, folder,
+                "--pyramid distance: expected at most 43 --textures, got 44");
+}
+
 TEST_CASE("joint: inputs that do not fit are refused, doubtful ones warned of") {
   ScratchFolder folder;
   small_terrain(folder);

@@ -126,6 +126,38 @@ TEST_CASE("every point of the path is a prefix of the file, as long as its bits 
   }
 }
 
+TEST_CASE("textures by distance: every level is from nearer than the one before, and the file says of which pyramid they are") {
+  const LevelOptions options{.meshes = 4, .textures = 9, .from = 0.01, .to = 0.4, .pyramid = TexturePyramid::distance};
+  const JointLevels levels = make_joint_levels(small_field(), small_image(48, 40), small_view(), options);
+  const std::size_t count = levels.texture_bits.size();
+  REQUIRE(count >= 3);
+  CHECK(distance_of(levels, count - 1) == 1);
+  for (std::size_t j = 1; j < count; ++j) {
+    CHECK(distance_of(levels, j) < distance_of(levels, j - 1));
+    CHECK(levels.significant[j] >= levels.significant[j - 1]);
+  }
+  CHECK(distance_of(levels, 0) <= 10.1);  // 2^(10/3) = 10.08
+  CHECK(distance_of(small_levels(), 0) == 1);
+  const std::vector<Image> textures = texture_levels(levels);
+  const Path path = zigzag(levels);
+  std::vector<std::byte> file = encode_joint(levels, path);
+  CHECK(file[14] == std::byte{8});
+  for (const PathPoint& point : path.points)
+    CHECK(decode_joint(std::span(file).first(point.bits / 8)).texture == textures[point.pair.texture]);
+
+  // Another pyramid's delays have another checksum; one of more steps than delays can hold is refused before they are made.
+  for (const int steps : {0, 7, 43}) {
+    file[14] = static_cast<std::byte>(steps);
+    repair(file);
+    CHECK_THROWS_AS((void)decode_joint(file), InputError);
+  }
+  for (const std::size_t textures_asked : {std::size_t{1}, kMostDistances + 1}) {
+    LevelOptions wrong = options;
+    wrong.textures = textures_asked;
+    CHECK_THROWS_AS((void)make_joint_levels(small_field(), small_image(48, 40), small_view(), wrong), InputError);
+  }
+}
+
 TEST_CASE("any prefix opens at its last whole segment; one without a whole pair is refused") {
   const JointLevels levels = small_levels();
   const Path path = zigzag(levels);

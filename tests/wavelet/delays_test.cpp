@@ -173,6 +173,41 @@ TEST_CASE("pyramid: coarser textures first, each complete before the next") {
   }
 }
 
+TEST_CASE("pyramid: points of complete delays are whole levels, bit for bit") {
+  const int size = 64, levels = 4;
+  const Image image = landscape_texture(size, size);
+  for (const Kernel kernel : {Kernel::reversible_5_3, Kernel::irreversible_9_7}) {
+    const Pyramid pyramid =
+        distance_pyramid(everything(size, size, 0.5f), {.levels = levels, .steps = 7, .per_octave_num = 2, .per_octave_den = 1});
+    const std::vector<int> delays = {pyramid.delays.at(size >> 4, 0), pyramid.delays.at(size >> 3, 0), pyramid.delays.at(size >> 2, 0),
+                                     pyramid.delays.at(size >> 1, 0)};
+    const EncodedTexture encoded =
+        encode_texture(image, {.kernel = kernel, .levels = levels, .delays = pyramid.delays, .complete_delays = delays});
+    REQUIRE(encoded.points.size() == delays.size());
+    CHECK(encoded.points.back().significant == encoded.significant_total);
+    for (std::size_t n = 0; n < delays.size(); ++n) {
+      const Delays without = make_delays(size, size, levels, [&](const Subband& band, int, int) -> int {
+        return band.orientation != Orientation::ll && band.level < levels - static_cast<int>(n) ? kNeverSent : 0;
+      });
+      const EncodedTexture coarse = encode_texture(image, {.kernel = kernel, .levels = levels, .delays = without});
+      const DecodedTexture decoded = decode_texture(std::span(encoded.bytes).first(encoded.points[n].bytes), pyramid.delays);
+      CHECK(decoded.image == decode_texture(coarse.bytes, without).image);
+      CHECK(decoded.significant == coarse.significant_total);
+      if (n > 0) CHECK(encoded.points[n].bytes > encoded.points[n - 1].bytes);
+      const DecodedTexture less = decode_texture(std::span(encoded.bytes).first(encoded.points[n].bytes - 1), pyramid.delays);
+      CHECK(less.significant <= decoded.significant);  // a byte less lacks at least its last bit
+    }
+  }
+  const auto refused = [&](const std::vector<double>& shares, const std::vector<int>& delays) {
+    CHECK_THROWS_AS((void)encode_texture(image, {.significant_shares = shares, .complete_delays = delays}), InputError);
+  };
+  refused({0.5}, {0});
+  refused({}, {-1});
+  refused({}, {kMaxDelay + 1});
+  const Delays late = make_delays(size, size, levels, [](const Subband& band, int, int) { return band.level == 1 ? 60 : 0; });
+  CHECK_THROWS_AS((void)encode_texture(image, {.levels = levels, .delays = late, .complete_delays = {60, 0}}), InputError);
+}
+
 TEST_CASE("pyramid: powers of two by roots") {
   CHECK(power_of_two(0, 7) == 1);
   CHECK(power_of_two(21, 7) == 8);

@@ -166,8 +166,8 @@ std::vector<StudyFigure> figures_of(const HorbeltSubjectResult& subject, const H
   }
   figures.push_back(std::move(trades));
   figures.push_back(
-      {.id = "figure123-" + stem,
-       .title = "Figures 1 to 3: " + where,
+      {.id = "figure12-" + stem,
+       .title = "Figures 1 and 2: " + where,
        .caption = "The full pair and the finest of all levels, as seen; from above: a mesh and the finest "
                   "texture, with viewer (blue) and frustum (red).",
        .svg = "",
@@ -176,10 +176,25 @@ std::vector<StudyFigure> figures_of(const HorbeltSubjectResult& subject, const H
                      v.finest},
                     {file("mesh"), fmt::format("Figure 2: mesh {}, {} triangles", v.mapped_mesh, grouped(v.mapped_faces)), v.mesh_map},
                     {file("texture"),
-                     fmt::format("Figure 3: texture {}, {} coefficients", v.mapped_texture, grouped(v.significant[v.mapped_texture])),
+                     fmt::format("the finest texture, {}: {} coefficients", v.mapped_texture, grouped(v.significant[v.mapped_texture])),
                      v.texture_map}},
        .columns = 2,
        .files = {view_file(subject, v)}});
+  StudyFigure distances{.id = "figure3-" + stem,
+                        .title = "Figure 3: " + where,
+                        .caption =
+                            "The pyramid of textures by distance, T_i from d_i = d_0·2^(i/k): what can be told apart from the view's own "
+                            "distance d_0, and from farther away, each level complete. Viewer blue, frustum red; what the frustum does "
+                            "not reach is never sent.",
+                        .svg = "",
+                        .pictures = {}};
+  for (std::size_t n = 0; n < v.distances.size(); ++n) {
+    const HorbeltDistance& d = v.distances[n];
+    distances.pictures.push_back(
+        {file(fmt::format("distance-{}", n).c_str()),
+         fmt::format("from {:.3g} d_0: {} coefficients, {:.1f} kbit", d.distance, grouped(d.significant), kilobits(d.bits)), d.map});
+  }
+  figures.push_back(std::move(distances));
   return figures;
 }
 

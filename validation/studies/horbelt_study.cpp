@@ -112,6 +112,20 @@ void draw_maps(HorbeltViewResult& result, const HorbeltSubject& subject, const T
   result.texture_map = texture_from_above(terrain.textures()[result.mapped_texture], subject.field, result.view.view);
 }
 
+void draw_distances(HorbeltViewResult& result, const HorbeltSubject& subject, const HorbeltStudyOptions& options) {
+  joint::LevelOptions how = options.levels;
+  how.meshes = 2, how.textures = std::min(how.textures, joint::kMostDistances), how.pyramid = joint::TexturePyramid::distance;
+  const joint::JointLevels levels = joint::make_joint_levels(subject.field, subject.image, result.view.view, how);
+  // Levels that come out equal are one: those that there are, by the step at which they were completed.
+  const std::size_t last = levels.texture_ends_bytes.size() - 1;
+  std::vector<std::size_t> shown = {last, last / 2, 0};
+  shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
+  const std::vector<Image> textures = joint::texture_levels(levels);
+  for (const std::size_t j : shown)
+    result.distances.push_back({joint::distance_of(levels, j), levels.significant[j], levels.texture_bits[j],
+                                texture_from_above(textures[j], subject.field, result.view.view)});
+}
+
 class Study {
  public:
   Study(Renderer& exact, const HorbeltStudyOptions& options, std::size_t views)
@@ -143,6 +157,7 @@ class Study {
     result.full = without_alpha(terrain.errors().reference());
     result.finest = without_alpha(terrain.errors().picture(result.vertices.size() - 1, result.texture_bits.size() - 1));
     draw_maps(result, subject, terrain);
+    draw_distances(result, subject, options_);
     begin(label + ": on the device");
     if (is_checked && options_.device != nullptr && options_.device_model)
       check_on_device(result, terrain, exact_, options_, [&](std::size_t, std::size_t) { report(label + ": on the device"); });

@@ -75,6 +75,14 @@ struct HorbeltTrade {
   Image picture;
 };
 
+/// A level of the pyramid of section 2.2 (Figure 3): what of the texture is resolvable from so many times the view's own distance.
+struct HorbeltDistance {
+  double distance = 1;  ///< d_i / d_0 = 2^(i/k)
+  std::size_t significant = 0;
+  std::uint64_t bits = 0;
+  Image map;  ///< from above, with viewer and frustum
+};
+
 struct HorbeltViewResult {
   NamedTerrainView view;
   std::size_t faces = 0, visible_faces = 0;  ///< of the full mesh
@@ -88,9 +96,10 @@ struct HorbeltViewResult {
   std::vector<HorbeltOutcome> outcomes;
   std::vector<HorbeltTrade> trades;
   Image full, finest;                               ///< pictures: of the full pair, and of the finest levels
-  Image mesh_map, texture_map;                      ///< from above, with viewer and frustum (Figures 2 and 3)
+  Image mesh_map, texture_map;                      ///< from above, with viewer and frustum (Figure 2)
   std::size_t mapped_mesh = 0, mapped_texture = 0;  ///< the levels that they show
   std::size_t mapped_faces = 0;                     ///< of that mesh: about 8,000, or all that the finest has
+  std::vector<HorbeltDistance> distances;           ///< T_0, one of the middle, T_M
   double level_seconds = 0, search_seconds = 0, exhaustive_seconds = 0;
   ClassCounts checked;  ///< texels of the frames drawn on both renderers
   std::size_t checked_frames = 0;

@@ -66,6 +66,13 @@ TEST_CASE("study horbelt: a small one, and what must be true of any") {
     for (const HorbeltTrade& t : view.trades) CHECK(t.psnr_db.value_or(99) <= view.trades[1].psnr_db.value_or(99));
     CHECK(view.full.width() == 128);
     CHECK(view.mesh_map.width() == view.texture_map.width());
+    REQUIRE(view.distances.size() >= 2);
+    CHECK(view.distances.front().distance == 1);
+    for (std::size_t n = 1; n < view.distances.size(); ++n) {
+      CHECK(view.distances[n].distance > view.distances[n - 1].distance);
+      CHECK(view.distances[n].significant < view.distances[n - 1].significant);
+      CHECK(view.distances[n].bits < view.distances[n - 1].bits);
+    }
   }
   const HorbeltViewResult& valley = result.subjects[0].views[0];
   CHECK(valley.view.name == "valley");
@@ -75,7 +82,7 @@ TEST_CASE("study horbelt: a small one, and what must be true of any") {
 
   const StudyReport report = horbelt_report(result);
   CHECK(report.claims.size() == 7);
-  CHECK(report.figures.size() == 2 * 4);
+  CHECK(report.figures.size() == 2 * 5);
   CHECK(report.tables[0].rows.size() == 2 * kHorbeltMethods.size());
   CHECK(report.figures[0].svg.starts_with("<svg"));
 }
