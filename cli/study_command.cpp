@@ -138,7 +138,8 @@ void print_view(const std::string& subject, const HorbeltViewResult& view, Conso
 Studied study_horbelt(const Options& options, const OpenedDevice& device, Console& console, CallFiles& files) {
   raster::CpuRenderer exact;
   HorbeltStudyOptions how;
-  if (options.quick) how.width = 160, how.height = 120, how.view_count = 2, how.levels.meshes = 12, how.levels.textures = 8;
+  if (options.quick)
+    how.width = 160, how.height = 120, how.view_count = 2, how.levels.meshes = 12, how.levels.textures = 8, how.flight_frames = 4;
   if (!options.size.empty()) {
     const FrameSize size = parse_size(options.size);
     how.width = size.width, how.height = size.height;

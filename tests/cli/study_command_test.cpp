@@ -119,7 +119,7 @@ TEST_CASE("study horbelt --quick: the procedural alps, every figure, the same fo
     CHECK(document.dump() == first);
   }
   for (const char* file : {"figure4-alps-valley.svg", "figure5-alps-valley.svg", "alps-valley-pair-a.png", "alps-overview-mesh.png",
-                           "alps-valley-distance-0.png", "gaps.csv"})
+                           "alps-valley-distance-0.png", "alps-flight.png", "alps-flight-04.png", "flight.csv", "gaps.csv"})
     CHECK(std::filesystem::exists(folder.path() / "out" / file));
 }
 
@@ -264,7 +264,7 @@ TEST_CASE("study horbelt: the views that it writes are what joint --view and its
   const json document = json::parse(first.out);
   const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/study.json"));
   for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
-  CHECK(document["files"].size() == 2);
+  CHECK(document["files"].size() == 3);  // two views, the sheet of the flight
   CHECK(document["files"][0]["file"] == "dem-valley-view.json");
   const json view = json::parse(text("first/dem-valley-view.json"));
   const json view_schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/view.json"));

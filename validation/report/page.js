@@ -99,4 +99,13 @@
       frame.addEventListener('pointerleave', () => loupe.classList.remove('on'));
     }
   }
+  for (const film of document.querySelectorAll('.film')) {
+    const pictures = film.querySelectorAll('figure');
+    const slider = film.querySelector('input');
+    const turn = () => pictures.forEach((picture, n) => { picture.hidden = n !== Number(slider.value); });
+    slider.hidden = false;
+    slider.addEventListener('input', turn);
+    film.classList.add('playing');
+    turn();
+  }
 })();

@@ -51,11 +51,14 @@ std::string figure_html(const StudyFigure& figure) {
     html += fmt::format("<p class=\"soft\"><a href=\"{0}\">{0}</a>: {1}</p>", escaped(file.file), escaped(file.label));
   if (!figure.svg.empty()) html += "<div class=\"drawing\">" + figure.svg + "</div>";
   if (!figure.pictures.empty()) {
-    html += fmt::format("<div class=\"row\" style=\"--columns:{}\">", figure.columns);
+    html += fmt::format("<div class=\"row{}\" style=\"--columns:{}\">", figure.is_film ? " film" : "", figure.columns);
     for (const StudyPicture& picture : figure.pictures)
       html += fmt::format(
           "<figure><img src=\"{}\" alt=\"{}\" width=\"{}\" height=\"{}\" loading=\"lazy\"><figcaption>{}</figcaption></figure>",
           png_data_uri(picture.image), escaped(picture.label), picture.image.width(), picture.image.height(), escaped(picture.label));
+    if (figure.is_film)
+      html += fmt::format("<input type=\"range\" min=\"0\" max=\"{}\" value=\"0\" hidden aria-label=\"Picture of {}\">",
+                          figure.pictures.size() - 1, escaped(figure.title));
     html += "</div>";
   }
   return html + "</article>";

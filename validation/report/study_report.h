@@ -51,6 +51,7 @@ struct StudyFigure {
   std::vector<StudyPicture> pictures;
   int columns = 3;               ///< pictures side by side
   std::vector<StudyFile> files;  ///< linked below the caption
+  bool is_film = false;          ///< the page shows one picture at a time, with a slider; all of them without scripts
 };
 
 enum class ClaimVerdict : std::uint8_t { holds, partly, fails };

@@ -6,6 +6,7 @@
 #include "validation/report/json_report.h"
 #include "validation/report/view_document.h"
 #include "validation/studies/horbelt_drawings.h"
+#include "validation/studies/horbelt_flight_figure.h"
 
 namespace etalon::validation {
 namespace {
@@ -217,10 +218,14 @@ StudyReport horbelt_report(const HorbeltStudyResult& result) {
   StudyTable device = device_table(result);
   if (!device.rows.empty()) report.tables.push_back(std::move(device));
   report.tables.push_back(time_table(result));
+  StudyTable flights = flight_table(result);
+  if (!flights.rows.empty()) report.tables.push_back(std::move(flights));
   report.tables.push_back(path_table(result));
   for_each_view(result, [&](const HorbeltSubjectResult& subject, const HorbeltViewResult& view) {
     for (StudyFigure& figure : figures_of(subject, view)) report.figures.push_back(std::move(figure));
   });
+  for (const HorbeltSubjectResult& subject : result.subjects)
+    if (!subject.flight.empty()) report.figures.push_back(flight_figure(subject));
   std::string titles;
   for (const HorbeltSubjectResult& subject : result.subjects) titles += (titles.empty() ? "" : "; ") + subject.title;
   report.notes = {

@@ -128,8 +128,8 @@ void draw_distances(HorbeltViewResult& result, const HorbeltSubject& subject, co
 
 class Study {
  public:
-  Study(Renderer& exact, const HorbeltStudyOptions& options, std::size_t views)
-      : exact_(exact), options_(options), total_(static_cast<int>(3 * views)) {}
+  Study(Renderer& exact, const HorbeltStudyOptions& options, std::size_t views, std::size_t subjects)
+      : exact_(exact), options_(options), total_(static_cast<int>(3 * views + subjects * options.flight_frames)) {}
 
   HorbeltViewResult view(const HorbeltSubject& subject, const NamedTerrainView& named, bool is_checked) {
     const std::string label = subject.name + ", " + named.name;
@@ -162,6 +162,18 @@ class Study {
     if (is_checked && options_.device != nullptr && options_.device_model)
       check_on_device(result, terrain, exact_, options_, [&](std::size_t, std::size_t) { report(label + ": on the device"); });
     return result;
+  }
+
+  void flight(const HorbeltSubject& subject, HorbeltSubjectResult& result) {
+    if (options_.flight_frames == 0) return;
+    result.flight_budget_bits = result.views.front().trades[1].bits;
+    FlightOptions how{.frames = options_.flight_frames,
+                      .width = std::max(1, options_.width / 2),
+                      .height = std::max(1, options_.height / 2),
+                      .budget_bits = result.flight_budget_bits,
+                      .levels = options_.levels};
+    how.before_frame = [&](std::size_t) { begin(subject.name + ": flight"); };
+    result.flight = fly_over(exact_, subject.field, subject.image, how);
   }
 
  private:
@@ -234,12 +246,12 @@ HorbeltStudyResult run_horbelt_study(const std::vector<HorbeltSubject>& subjects
   if (options.device != nullptr) result.device_name = options.device->name();
   std::size_t view_count = 0;
   for (const HorbeltSubject& subject : subjects) view_count += subject.views.empty() ? options.view_count : subject.views.size();
-  Study study(exact, options, view_count);
+  Study study(exact, options, view_count, subjects.size());
   for (std::size_t s = 0; s < subjects.size(); ++s) {
     const HorbeltSubject& subject = subjects[s];
     result.inputs.insert(result.inputs.end(), subject.inputs.begin(), subject.inputs.end());
     result.subjects.push_back(
-        {subject.name, subject.title, subject.joint_command, subject.notes, subject.warnings, !subject.views.empty(), {}});
+        {subject.name, subject.title, subject.joint_command, subject.notes, subject.warnings, !subject.views.empty(), {}, 0, {}});
     std::vector<NamedTerrainView> views = subject.views;
     if (views.empty()) {
       views = terrain_views(exact, subject.field, options.width, options.height);
@@ -250,6 +262,7 @@ HorbeltStudyResult run_horbelt_study(const std::vector<HorbeltSubject>& subjects
       result.subjects.back().views.push_back(study.view(subject, views[v], is_checked));
       if (options.on_view) options.on_view(subject.name, result.subjects.back().views.back());
     }
+    study.flight(subject, result.subjects.back());
   }
   return result;
 }

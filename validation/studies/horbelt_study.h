@@ -13,6 +13,7 @@
 #include "validation/bounds.h"
 #include "validation/joint/path_gaps.h"
 #include "validation/joint/terrain_views.h"
+#include "validation/studies/horbelt_flight.h"
 #include "validation/texel_diff.h"
 #include "validation/verify/verify_result.h"
 
@@ -54,6 +55,7 @@ struct HorbeltStudyOptions {
   std::optional<DeviceModel> device_model;
   std::size_t checked_views = 5;
   std::size_t checked_subject = 0;  ///< index
+  std::size_t flight_frames = 12;   ///< of a flight over each terrain, in frames of half the size; 0: none
   /// Called before each step; may be empty. An exception stops the study.
   std::function<void(const std::string& label, int done, int total)> progress;
   std::function<void(const std::string& subject, const HorbeltViewResult&)> on_view;  ///< called after each view; may be empty
@@ -112,6 +114,8 @@ struct HorbeltSubjectResult {
   std::vector<std::string> notes, warnings;
   bool has_own_views = false;  ///< not those of terrain_views()
   std::vector<HorbeltViewResult> views;
+  std::uint64_t flight_budget_bits = 0;  ///< those of the first view's pair (b) of Figure 6
+  std::vector<FlightFrame> flight;
 };
 
 struct HorbeltStudyResult {

@@ -6,6 +6,7 @@
 
 #include "core/base/rng.h"
 #include "raster/cpu_renderer.h"
+#include "validation/studies/horbelt_flight_figure.h"
 #include "validation/studies/horbelt_report.h"
 
 using namespace etalon;
@@ -39,6 +40,7 @@ HorbeltStudyOptions small_options() {
   options.width = 128, options.height = 96;
   options.view_count = 2;
   options.levels.meshes = 10, options.levels.textures = 7;
+  options.flight_frames = 3;
   return options;
 }
 
@@ -74,6 +76,20 @@ TEST_CASE("study horbelt: a small one, and what must be true of any") {
       CHECK(view.distances[n].bits < view.distances[n - 1].bits);
     }
   }
+  const std::vector<FlightFrame>& flight = result.subjects[0].flight;
+  REQUIRE(flight.size() == 3);
+  for (const FlightFrame& frame : flight) {
+    CHECK_FALSE(frame.is_over_budget);
+    CHECK(frame.mesh_bits + frame.texture_bits <= result.subjects[0].flight_budget_bits);
+    CHECK(frame.psnr_db.value_or(99) > 10);
+    CHECK(frame.picture.width() == 64);
+  }
+  CHECK(flight[0].view.eye.x < flight[2].view.eye.x);
+  const Image sheet = contact_sheet(flight);
+  CHECK(sheet.width() == 3 * 64 + 4 * 2);
+  CHECK(sheet.height() == 48 + 2 * 2);
+  for (const auto& [x, y] : {std::pair{0, 0}, {63, 47}})
+    CHECK(std::equal(sheet.texel(2 + 66 + x, 2 + y), sheet.texel(2 + 66 + x, 2 + y) + 3, flight[1].picture.texel(x, y)));
   const HorbeltViewResult& valley = result.subjects[0].views[0];
   CHECK(valley.view.name == "valley");
   CHECK(100 * valley.visible_faces >= 8 * valley.faces);
@@ -82,9 +98,25 @@ TEST_CASE("study horbelt: a small one, and what must be true of any") {
 
   const StudyReport report = horbelt_report(result);
   CHECK(report.claims.size() == 7);
-  CHECK(report.figures.size() == 2 * 5);
+  CHECK(report.figures.size() == 2 * 5 + 1);
+  CHECK(report.figures.back().pictures.size() == 3);
+  CHECK(report.figures.back().is_film);
   CHECK(report.tables[0].rows.size() == 2 * kHorbeltMethods.size());
   CHECK(report.figures[0].svg.starts_with("<svg"));
+}
+
+TEST_CASE("a flight whose budget is below the smallest pair takes that, and says so") {
+  raster::CpuRenderer exact;
+  const HorbeltSubject subject = small_subject();
+  FlightOptions options{.frames = 1, .width = 64, .height = 48, .budget_bits = 8};
+  options.levels.meshes = 3, options.levels.textures = 3;
+  const std::vector<FlightFrame> flight = fly_over(exact, subject.field, subject.image, options);
+  REQUIRE(flight.size() == 1);
+  CHECK(flight[0].is_over_budget);
+  CHECK(flight[0].pair == joint::Pair{0, 0});
+  HorbeltSubjectResult result{.name = "hills"};
+  result.flight = flight;
+  CHECK(flight_figure(result).pictures[0].label.find("over the budget") != std::string::npos);
 }
 
 TEST_CASE("study horbelt: claims follow the goals") {
