@@ -16,12 +16,6 @@ constexpr std::array<char, 8> kSignature = {'\x89', 'E', 'J', 'T', '\r', '\n', '
 constexpr std::size_t kMostLevels = 65535;
 enum class Kind : std::uint8_t { mesh = 'M', texture = 'T' };
 
-std::uint32_t checksum(std::span<const std::byte> bytes) {
-  wavelet::Crc32 crc;
-  for (const std::byte b : bytes) crc.add(std::to_integer<std::uint8_t>(b));
-  return crc.value();
-}
-
 void put_u32(std::vector<std::byte>& out, std::uint32_t value) {
   for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<std::byte>((value >> shift) & 0xFF));
 }
@@ -42,7 +36,7 @@ std::span<const std::byte> part(std::span<const std::byte> stream, const std::ve
 void put_segment(std::vector<std::byte>& out, Kind kind, std::span<const std::byte> payload) {
   out.push_back(static_cast<std::byte>(kind));
   put_u32(out, static_cast<std::uint32_t>(payload.size()));
-  put_u32(out, checksum(payload));
+  put_u32(out, wavelet::crc32(payload));
   out.insert(out.end(), payload.begin(), payload.end());
 }
 
@@ -59,7 +53,7 @@ Segments read_segments(std::span<const std::byte> bytes) {
   if (bytes.size() < kJointHeaderBytes) refuse(bytes.size(), fmt::format("expected a header of {} bytes", kJointHeaderBytes));
   for (std::size_t n = 0; n < kSignature.size(); ++n)
     if (bytes[n] != static_cast<std::byte>(kSignature[n])) refuse(n, "not the signature of a joint stream");
-  if (get_u32(bytes, 16) != checksum(bytes.first(16))) refuse(16, "the header's checksum is wrong");
+  if (get_u32(bytes, 16) != wavelet::crc32(bytes.first(16))) refuse(16, "the header's checksum is wrong");
   Segments s;
   s.mesh_levels = get_u32(bytes, 8), s.texture_levels = get_u32(bytes, 12) & 0xFFFF;
   s.pyramid_steps = static_cast<int>(get_u32(bytes, 12) >> 16);
@@ -76,7 +70,7 @@ Segments read_segments(std::span<const std::byte> bytes) {
     if (count == (kind == Kind::mesh ? s.mesh_levels : s.texture_levels)) refuse(at, "more segments than levels");
     if (bytes.size() - at - kSegmentHeadBytes < length) break;
     const std::span<const std::byte> payload = bytes.subspan(at + kSegmentHeadBytes, length);
-    if (get_u32(bytes, at + 5) != checksum(payload)) refuse(at + 5, "the segment's checksum is wrong");
+    if (get_u32(bytes, at + 5) != wavelet::crc32(payload)) refuse(at + 5, "the segment's checksum is wrong");
     std::vector<std::byte>& stream = kind == Kind::mesh ? s.mesh : s.texture;
     stream.insert(stream.end(), payload.begin(), payload.end());
     ++count;
@@ -104,7 +98,7 @@ std::vector<std::byte> encode_joint(const JointLevels& levels, const Path& path)
   for (const char c : kSignature) out.push_back(static_cast<std::byte>(c));
   put_u32(out, static_cast<std::uint32_t>(mesh_ends.size()));
   put_u32(out, static_cast<std::uint32_t>(texture_ends.size()) | static_cast<std::uint32_t>(levels.pyramid_steps) << 16);
-  put_u32(out, checksum(out));
+  put_u32(out, wavelet::crc32(out));
   Pair next{0, 0};
   for (const PathPoint& point : path.points) {
     if (point.pair.mesh >= mesh_ends.size() || point.pair.texture >= texture_ends.size() || point.pair.mesh + 1 < next.mesh ||

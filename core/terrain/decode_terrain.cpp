@@ -58,8 +58,8 @@ DecodedTerrain decode_terrain(std::span<const std::byte> bytes, const DecodeLimi
     result.levels.vertex_counts.push_back(coder.vertex_count());
     at = segment->end;
   }
-  result.complete = result.levels.count() == header.level_count;
-  if (result.complete && at != bytes.size())
+  result.is_complete = result.levels.count() == header.level_count;
+  if (result.is_complete && at != bytes.size())
     throw InputError(fmt::format("terrain stream: byte {}: expected the end of the stream, got {} more bytes", at, bytes.size() - at));
   result.bytes_used = at;
   result.field = coder.take_field();

@@ -35,7 +35,7 @@ struct DecodedTerrain {
   Levels levels;      ///< the whole ones
   std::optional<TerrainView> view;
   std::size_t levels_in_whole = 0;  ///< that the stream has when it is whole
-  bool complete = false;            ///< false: a prefix, or one that ends inside a segment
+  bool is_complete = false;         ///< false: a prefix, or one that ends inside a segment
   std::size_t bytes_used = 0;       ///< up to the end of the last whole level
 };
 

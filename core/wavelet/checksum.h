@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace etalon::wavelet {
 
@@ -23,5 +25,11 @@ class Crc32 {
   }();
   std::uint32_t state_ = 0xFFFFFFFFu;
 };
+
+[[nodiscard]] inline std::uint32_t crc32(std::span<const std::byte> bytes) {
+  Crc32 crc;
+  for (const std::byte b : bytes) crc.add(std::to_integer<std::uint8_t>(b));
+  return crc.value();
+}
 
 }  // namespace etalon::wavelet

@@ -18,11 +18,7 @@ constexpr std::size_t kFixedBytes = 13, kDelayBytes = 4, kCheckBytes = 2;
 constexpr int kExponentOffset = 64;
 enum Flags : std::uint8_t { kIs97 = 1, kHasDelays = 2, kIsColour = 4, kIsSrgb = 8, kAllFlags = 15 };
 
-std::uint32_t check_of(std::span<const std::byte> bytes) {
-  Crc32 crc;
-  for (const std::byte b : bytes) crc.add(std::to_integer<std::uint8_t>(b));
-  return crc.value() & 0xFFFF;
-}
+std::uint32_t check_of(std::span<const std::byte> bytes) { return crc32(bytes) & 0xFFFF; }
 
 std::uint32_t number(std::span<const std::byte> bytes, std::size_t at, std::size_t count) {
   std::uint32_t x = 0;

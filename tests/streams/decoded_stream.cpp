@@ -83,7 +83,7 @@ void add_terrain(const terrain::DecodedTerrain& terrain, Numbers& out) {
     for (const double value : {view.tan_half_fov_y, view.near, view.far}) out.add_real(value);
     out.add(static_cast<std::uint64_t>(view.width)), out.add(static_cast<std::uint64_t>(view.height));
   }
-  out.add(terrain.levels_in_whole), out.add(terrain.complete ? 1 : 0), out.add(terrain.bytes_used);
+  out.add(terrain.levels_in_whole), out.add(terrain.is_complete ? 1 : 0), out.add(terrain.bytes_used);
   for (std::size_t level = 0; level < terrain.levels.count(); ++level) add_mesh(terrain::level_mesh(field, terrain.levels, level), out);
 }
 

@@ -21,7 +21,7 @@ std::span<const std::byte> bytes_of(const std::string& text) { return std::as_by
 void check_decoded(const DecodedTerrain& decoded, const HeightField& field, const Levels& levels, std::size_t count) {
   REQUIRE(decoded.levels.count() == count);
   CHECK(decoded.levels_in_whole == levels.count());
-  CHECK(decoded.complete == (count == levels.count()));
+  CHECK(decoded.is_complete == (count == levels.count()));
   for (std::size_t l = 0; l < count; ++l) CHECK(decoded.levels.vertex_counts[l] == levels.vertex_counts[l]);
   for (std::size_t v = 0; v < field.heights.size(); ++v) {
     const bool is_there = levels.first_level[v] < count;

@@ -7,7 +7,7 @@
 
 namespace etalon::validation {
 
-/// Figure 4: PSNR over bits, a thin line for each texture over all its meshes, the staircase of all pairs bold, the path of marginal analysis dotted.
+/// Figure 4: PSNR over bits, a thin line for each texture over all its meshes, the staircase of all pairs bold, the path of slope between them.
 [[nodiscard]] std::string rate_drawing(const HorbeltViewResult& view);
 
 /// Figure 5: lines of equal PSNR over the levels of mesh (across) and texture (up), the pairs of the staircase bold, the path of slope thin.
