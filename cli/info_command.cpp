@@ -16,6 +16,7 @@
 #include "cli/exit_code.h"
 #include "cli/info_findings.h"
 #include "cli/model_input.h"
+#include "cli/work_bytes.h"
 #include "core/adapt/cell_chunks.h"
 #include "core/base/error.h"
 #include "core/io/exr_file.h"
@@ -86,7 +87,7 @@ Json mesh_json(const Mesh& mesh, const MeshReport& report) {
 }
 
 Finding examine_mesh(const std::string& path, CallFiles& files) {
-  const io::LoadedModel model = io::read_mesh(path);
+  const io::LoadedModel model = io::read_mesh(path, kMinValidateBytesPerFace);
   add_side_files(files, model);
   const MeshReport report = validate_mesh(model.mesh);
   Finding finding;

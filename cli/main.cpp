@@ -34,6 +34,7 @@
 #include "cli/usage_error.h"
 #include "cli/verify_command.h"
 #include "core/base/error.h"
+#include "core/base/memory_limit.h"
 #include "validation/report/run_info.h"
 
 namespace {
@@ -108,7 +109,10 @@ int main(int argc, char** argv) {
     print_error(error.what());
     return kExitWarning;
   } catch (const std::bad_alloc&) {
-    print_error("out of memory");
+    const std::optional<MemoryLimit> limit = memory_limit();
+    print_error(limit ? fmt::format("out of memory: {} are used of {}: {}", memory_text(limit->used_bytes), memory_text(limit->limit_bytes),
+                                    limit->name)
+                      : "out of memory");
     return kExitBadInput;
   } catch (const std::exception& error) {
     print_error(error.what());

@@ -11,6 +11,7 @@
 #include "cli/call_files.h"
 #include "cli/exit_code.h"
 #include "cli/model_input.h"
+#include "cli/work_bytes.h"
 #include "core/io/inputs.h"
 #include "core/io/mesh_file.h"
 #include "validation/metrics/metro.h"
@@ -32,7 +33,7 @@ struct Options {
 
 Mesh read_surface(const std::string& path, const std::string& role, CallFiles& files, std::vector<validation::VerifyInput>& inputs) {
   files.add_input(path, "surface " + role);
-  io::LoadedModel model = io::read_mesh(path);
+  io::LoadedModel model = io::read_mesh(path, kMinMetroBytesPerFace);
   add_side_files(files, model);
   validation::VerifyInput input{.name = std::filesystem::path(path).filename().string(),
                                 .sha256 = io::file_sha256(path),

@@ -6,6 +6,7 @@
 
 #include "cli/attribution.h"
 #include "cli/common_options.h"
+#include "cli/work_bytes.h"
 #include "core/base/error.h"
 #include "core/base/sha256.h"
 #include "core/io/image_file.h"
@@ -99,7 +100,7 @@ VerifyModel load_model(const std::string& path, const ModelOptions& options, Cal
   files.add_input(path, "the model");
   files.add_input(options.texture, "--texture");
   VerifyModel model;
-  io::LoadedModel loaded = io::read_mesh(path);
+  io::LoadedModel loaded = io::read_mesh(path, kMinDrawBytesPerFace);
   add_side_files(files, loaded);
   model.name = fs::path(path).stem().string();
   model.mesh = std::move(loaded.mesh);

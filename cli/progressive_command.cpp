@@ -15,6 +15,7 @@
 #include "cli/model_input.h"
 #include "cli/repair_notes.h"
 #include "cli/usage_error.h"
+#include "cli/work_bytes.h"
 #include "core/adapt/cell_chunks.h"
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
@@ -68,7 +69,7 @@ CellReport make_cells(const progressive::ProgressiveData& data, Console& console
 }
 
 int make_file(const Options& options, Console& console, CallFiles& files) {
-  io::LoadedModel model = io::read_mesh(options.input);
+  io::LoadedModel model = io::read_mesh(options.input, kMinProgressiveBytesPerFace);
   add_side_files(files, model);
   files.add_output(options.output, "-o");
   files.add_output(options.common.json, "--json");

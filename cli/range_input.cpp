@@ -9,6 +9,7 @@
 #include "cli/common_options.h"
 #include "cli/model_input.h"
 #include "cli/usage_error.h"
+#include "cli/work_bytes.h"
 #include "core/base/error.h"
 #include "core/io/image_file.h"
 #include "core/io/range_file.h"
@@ -100,7 +101,7 @@ io::LoadedModel load_scan(const std::string& path, const RangeOptions& options, 
   if (io::names_range_image(path)) return load_range_image(path, options, files);
   refuse_useless(path, options);
   if (options.max_jump && !is_ply(path)) throw UsageError("--max-jump: is of range images and PLY range grids, got " + path);
-  return is_ply(path) && options.max_jump ? io::read_range_ply(path, options.max_jump) : io::read_mesh(path);
+  return is_ply(path) && options.max_jump ? io::read_range_ply(path, options.max_jump) : io::read_mesh(path, kMinSimplifyBytesPerFace);
 }
 
 }  // namespace etalon::cli

@@ -17,6 +17,7 @@
 #include "cli/reduction_options.h"
 #include "cli/repair_notes.h"
 #include "cli/usage_error.h"
+#include "cli/work_bytes.h"
 #include "core/io/inputs.h"
 #include "core/io/mesh_file.h"
 #include "core/mesh/weld.h"
@@ -68,7 +69,7 @@ std::string error_text(const std::string& metric, const SimplifyResult& result, 
 Job read_job(const Options& options, CallFiles& files) {
   Job job;
   files.add_input(options.model, "the model");
-  job.model = io::read_mesh(options.model);
+  job.model = io::read_mesh(options.model, kMinSimplifyBytesPerFace);
   add_side_files(files, job.model);
   job.input = {.name = std::filesystem::path(options.model).filename().string(),
                .sha256 = io::file_sha256(options.model),

@@ -7,6 +7,7 @@
 
 #include "cli/attribution.h"
 #include "cli/model_input.h"
+#include "cli/work_bytes.h"
 #include "core/base/error.h"
 #include "core/io/inputs.h"
 #include "core/io/mesh_file.h"
@@ -69,7 +70,7 @@ std::string slug_among(const std::string& path, const std::vector<KimSubject>& o
 
 KimSubject read_subject(const std::string& path, double reduction, const std::vector<KimSubject>& others, CallFiles& files) {
   files.add_input(path, "the model");
-  io::LoadedModel model = io::read_mesh(path);
+  io::LoadedModel model = io::read_mesh(path, kMinSimplifyBytesPerFace);
   add_side_files(files, model);
   if (model.mesh.colors.empty()) throw InputError(path + ": expected vertex colours, got none");
   KimSubject subject;

@@ -11,6 +11,7 @@
 #include "core/io/image_file.h"
 #include "core/io/input_error.h"
 #include "core/io/mesh_formats.h"
+#include "core/io/mesh_room.h"
 #include "core/io/triangle_soup.h"
 #include "core/mesh/weld.h"
 
@@ -24,7 +25,11 @@ constexpr std::size_t kMaxElements = std::size_t{1} << 27;
 
 class GltfReader {
  public:
-  GltfReader(const fs::path& path, const FileBytes& content) : name_(path.filename().string()), document_(path, content) {}
+  GltfReader(const fs::path& path, const FileBytes& content, std::uint64_t work_bytes_per_face)
+      : name_(path.filename().string()),
+        document_(path, content),
+        file_bytes_(content.bytes().size()),
+        work_bytes_per_face_(work_bytes_per_face) {}
 
   LoadedModel read() {
     check_extensions();
@@ -128,9 +133,19 @@ class GltfReader {
           std::tuple(position, attributes.integer_or(uv_name.c_str(), kNoAccessor), attributes.integer_or("COLOR_0", kNoAccessor));
       const std::size_t vertex_count = document_.accessor(position).count;
       const auto [known, is_new] = first_vertex_of.try_emplace(key, static_cast<std::uint32_t>(soup_.positions.size()));
+      // One vertex for each index where the primitive has none.
+      const std::size_t index_count = primitive.has("indices") ? document_.accessor(primitive.at("indices").integer()).count : vertex_count;
+      require_room(is_new ? vertex_count : 0, mode == 4 ? index_count / 3 : 0);
       if (is_new) add_vertices(std::get<0>(key), std::get<1>(key), std::get<2>(key), world);
       add_triangles(primitive, mode, known->second, vertex_count, world.mirrors(), material);
     }
+  }
+
+  /// For what has been read and a primitive more; strips may repeat indices, so their triangles do not count.
+  void require_room(std::size_t vertices, std::size_t faces) const {
+    const std::uint64_t held_bytes = soup_.positions.size() * sizeof(Vec3f) + soup_.faces.size() * sizeof(soup_.faces[0]);
+    io::require_room(document_.file(), {.vertices = soup_.positions.size() + vertices, .faces = soup_.faces.size() + faces}, file_bytes_,
+                     work_bytes_per_face_, held_bytes);
   }
 
   GltfAccessor vector_accessor(std::uint64_t index, int fewest, int most, std::size_t count) {
@@ -292,6 +307,7 @@ class GltfReader {
 
   std::string name_;
   GltfDocument document_;
+  std::uint64_t file_bytes_, work_bytes_per_face_;
   LoadedModel model_;
   TriangleSoup soup_;
   std::vector<std::uint32_t> raw_materials_;  // one for each face: place in met_materials_
@@ -304,6 +320,8 @@ class GltfReader {
 
 }  // namespace
 
-LoadedModel read_gltf(const fs::path& path, const FileBytes& content) { return GltfReader(path, content).read(); }
+LoadedModel read_gltf(const fs::path& path, const FileBytes& content, std::uint64_t work_bytes_per_face) {
+  return GltfReader(path, content, work_bytes_per_face).read();
+}
 
 }  // namespace etalon::io

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "core/base/error.h"
+#include "core/base/memory_limit.h"
 #include "core/base/sha256.h"
 #include "core/io/input_error.h"
 
@@ -63,6 +64,7 @@ class Descriptor {
 FileBytes read_file(const std::filesystem::path& path) {
   Descriptor file(path);
   if (file.size_bytes() == 0) fail_file(path.string(), "the file is empty");
+  require_memory(path.string(), file.size_bytes());
   FileBytes result(file.size_bytes());
   const std::size_t got = file.read(result.bytes());
   if (got != file.size_bytes()) fail_at_byte(path.string(), got, "the file shrank while it was read");

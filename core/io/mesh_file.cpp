@@ -73,7 +73,7 @@ void check_mesh(const fs::path& path, const Mesh& mesh, const std::vector<Materi
 
 }  // namespace
 
-LoadedModel read_mesh(const fs::path& path) {
+LoadedModel read_mesh(const fs::path& path, std::uint64_t work_bytes_per_face) {
   const std::string extension = lower_extension(path);
   MeshFormat expected = MeshFormat::obj;
   if (extension == ".ply")
@@ -88,10 +88,10 @@ LoadedModel read_mesh(const fs::path& path) {
   const MeshFormat format = format_of(content.text(), expected);
   LoadedModel model;
   switch (format) {
-    case MeshFormat::obj: model = read_obj(path, content); break;
-    case MeshFormat::ply: model = read_ply(path, content); break;
-    case MeshFormat::gltf: model = read_gltf(path, content); break;
-    case MeshFormat::stl: model = read_stl(path, content); break;
+    case MeshFormat::obj: model = read_obj(path, content, work_bytes_per_face); break;
+    case MeshFormat::ply: model = read_ply(path, content, {}, work_bytes_per_face); break;
+    case MeshFormat::gltf: model = read_gltf(path, content, work_bytes_per_face); break;
+    case MeshFormat::stl: model = read_stl(path, content, work_bytes_per_face); break;
   }
   if (format != expected)
     model.notes.insert(model.notes.begin(), fmt::format("{}: read as {}, which is what the file holds", path.filename().string(),

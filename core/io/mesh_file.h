@@ -55,7 +55,9 @@ struct LoadedModel {
 ///
 /// InputError ("FILE:LINE: …", "FILE: byte OFFSET: …" or "FILE: JSON-PATH: …") for anything missing, truncated, malformed, not finite,
 /// out of range, or without faces; no count of a header is believed before it is held against the size of the file.
-[[nodiscard]] LoadedModel read_mesh(const std::filesystem::path& path);
+/// InputError too, before anything is parsed, where the mesh and `work_bytes_per_face` for what the caller does with it cannot fit into a
+/// limit on this process (core/base/memory_limit.h); it states the need.
+[[nodiscard]] LoadedModel read_mesh(const std::filesystem::path& path, std::uint64_t work_bytes_per_face = 0);
 
 /// The base colour texture of `material`: the embedded one, else read from texture_path, else an empty image.
 [[nodiscard]] Image load_texture(const Material& material);

@@ -13,12 +13,13 @@
 
 namespace etalon::io {
 
-/// `path` names the file in messages and the folder in which the files that it names are looked for.
-[[nodiscard]] LoadedModel read_obj(const std::filesystem::path& path, const FileBytes& content);
+/// `path` names the file in messages and the folder in which the files that it names are looked for; `work_bytes_per_face` as of read_mesh.
+[[nodiscard]] LoadedModel read_obj(const std::filesystem::path& path, const FileBytes& content, std::uint64_t work_bytes_per_face = 0);
 /// `max_jump`: of range grids (range_grid.h).
-[[nodiscard]] LoadedModel read_ply(const std::filesystem::path& path, const FileBytes& content, std::optional<double> max_jump = {});
-[[nodiscard]] LoadedModel read_stl(const std::filesystem::path& path, const FileBytes& content);
-[[nodiscard]] LoadedModel read_gltf(const std::filesystem::path& path, const FileBytes& content);
+[[nodiscard]] LoadedModel read_ply(const std::filesystem::path& path, const FileBytes& content, std::optional<double> max_jump = {},
+                                   std::uint64_t work_bytes_per_face = 0);
+[[nodiscard]] LoadedModel read_stl(const std::filesystem::path& path, const FileBytes& content, std::uint64_t work_bytes_per_face = 0);
+[[nodiscard]] LoadedModel read_gltf(const std::filesystem::path& path, const FileBytes& content, std::uint64_t work_bytes_per_face = 0);
 
 /// `credit`: one line, or empty.
 void write_obj(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Material>& materials, const std::string& credit);

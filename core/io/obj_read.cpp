@@ -7,8 +7,10 @@
 #include <cstring>
 #include <string_view>
 
+#include "core/base/memory_limit.h"
 #include "core/io/input_error.h"
 #include "core/io/mesh_formats.h"
+#include "core/io/mesh_room.h"
 #include "core/io/text_scan.h"
 #include "core/io/triangle_soup.h"
 
@@ -309,8 +311,27 @@ class ObjReader {
   Reference uvs_seen_;
 };
 
+/// Statements 'v' and 'f' at the beginnings of lines; a polygon counts as one triangle, which is the least that it is.
+MeshCounts count_statements(std::string_view text) {
+  MeshCounts counts;
+  for (std::size_t at = 0; at + 1 < text.size();) {
+    if (text[at + 1] == ' ') {
+      counts.vertices += text[at] == 'v' ? 1 : 0;
+      counts.faces += text[at] == 'f' ? 1 : 0;
+    }
+    const std::size_t end = text.find('\n', at);
+    if (end == std::string_view::npos) break;
+    at = end + 1;
+  }
+  return counts;
+}
+
 }  // namespace
 
-LoadedModel read_obj(const fs::path& path, const FileBytes& content) { return ObjReader(path, content.text()).read(); }
+LoadedModel read_obj(const fs::path& path, const FileBytes& content, std::uint64_t work_bytes_per_face) {
+  // A file without counts has to be looked through, which only pays where it could be refused.
+  if (memory_limit()) require_room(path, count_statements(content.text()), content.text().size(), work_bytes_per_face);
+  return ObjReader(path, content.text()).read();
+}
 
 }  // namespace etalon::io

@@ -6,6 +6,7 @@
 
 #include "core/io/input_error.h"
 #include "core/io/mesh_formats.h"
+#include "core/io/mesh_room.h"
 #include "core/io/ply_header.h"
 #include "core/io/ply_source.h"
 #include "core/io/range_file.h"
@@ -62,6 +63,23 @@ FaceRole face_role(const PlyProperty& p) {
   if (p.is_list && p.name == "texcoord") return FaceRole::texture_coordinates;
   if (!p.is_list && p.name == "texnumber") return FaceRole::texture_number;
   return FaceRole::none;
+}
+
+/// What the header promises, held against the size of the file already.
+MeshCounts counts_of(const PlyHeader& header) {
+  MeshCounts counts;
+  for (const PlyElement& element : header.elements)
+    for (const PlyProperty& p : element.properties) {
+      if (element.name == "vertex") {
+        counts.vertices = element.count;
+        counts.has_colors = counts.has_colors || vertex_role(p) == VertexRole::red;
+        counts.has_vertex_uvs = counts.has_vertex_uvs || vertex_role(p) == VertexRole::u;
+      } else if (element.name == "face") {
+        counts.faces = element.count;
+        counts.has_corner_uvs = counts.has_corner_uvs || face_role(p) == FaceRole::texture_coordinates;
+      }
+    }
+  return counts;
 }
 
 /// The stored integer that means 1; reals are stored as they are.
@@ -378,9 +396,10 @@ class BodyReader {
 
 }  // namespace
 
-LoadedModel read_ply(const fs::path& path, const FileBytes& content, std::optional<double> max_jump) {
+LoadedModel read_ply(const fs::path& path, const FileBytes& content, std::optional<double> max_jump, std::uint64_t work_bytes_per_face) {
   const std::string file = path.string();
   const PlyHeader header = parse_ply_header(file, content.text());
+  require_room(path, counts_of(header), content.bytes().size(), work_bytes_per_face);
   switch (header.encoding) {
     case PlyEncoding::ascii: return BodyReader(path, header, max_jump, AsciiSource(file, content.text(), header)).read();
     case PlyEncoding::little_endian: return BodyReader(path, header, max_jump, BinarySource<false>(file, content.bytes(), header)).read();

@@ -12,6 +12,7 @@
 #include "core/base/index_table.h"
 #include "core/io/input_error.h"
 #include "core/io/mesh_formats.h"
+#include "core/io/mesh_room.h"
 #include "core/io/text_scan.h"
 #include "core/io/triangle_soup.h"
 
@@ -19,7 +20,7 @@ namespace etalon::io {
 namespace {
 
 constexpr std::size_t kHeaderBytes = 84, kFacetBytes = 50;
-constexpr std::size_t kTextBytes = 1024;  // so much must be free of NUL for a file to be text
+constexpr std::size_t kLongestFacetText = 512, kTextBytes = 1024;  // so much must be free of NUL for a file to be text
 
 /// The vertices so far, found again by their coordinates.
 class Welder {
@@ -127,6 +128,11 @@ class AsciiReader {
   std::size_t number_ = 0;
 };
 
+/// A closed surface has half as many vertices as triangles (Euler), one with a boundary more.
+void require_room(const std::filesystem::path& path, std::uint64_t facets, std::uint64_t file_bytes, std::uint64_t work_bytes_per_face) {
+  io::require_room(path, {.vertices = facets / 2, .faces = facets}, file_bytes, work_bytes_per_face);
+}
+
 /// How many facets had attribute bytes that are not 0.
 std::size_t read_binary(const std::string& file, std::string_view text, TriangleSoup& soup) {
   if (text.size() < kHeaderBytes)
@@ -162,12 +168,15 @@ std::size_t read_binary(const std::string& file, std::string_view text, Triangle
 
 }  // namespace
 
-LoadedModel read_stl(const std::filesystem::path& path, const FileBytes& content) {
+LoadedModel read_stl(const std::filesystem::path& path, const FileBytes& content, std::uint64_t work_bytes_per_face) {
   const std::string_view text = content.text();
   const std::string name = path.filename().string();
   TriangleSoup soup;
   LoadedModel model;
-  if (is_ascii(text)) {
+  const bool is_text = is_ascii(text);
+  require_room(path, is_text ? text.size() / kLongestFacetText : std::min<std::uint64_t>(count_in(text), text.size() / kFacetBytes),
+               text.size(), work_bytes_per_face);
+  if (is_text) {
     AsciiReader(path.string(), text).read(soup);
   } else {
     const std::size_t attributes = read_binary(path.string(), text, soup);
