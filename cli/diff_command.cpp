@@ -97,6 +97,8 @@ void require_sensible(const Options& options) {
   if (options.device.empty() && !options.draws.empty()) throw UsageError("--draws needs --device: they are what classes are decided by");
   if (options.device.empty() && !options.waivers.empty()) throw UsageError("--waivers needs --device: a waiver is for one");
   if (options.output.empty() && options.only_if_different) throw UsageError("--od needs -o FILE");
+  for (const auto& [name, value] : {std::pair("-o", options.output), {"--junit", options.junit}, {"--html", options.html}})
+    if (value == "-") throw UsageError(fmt::format("{}: expected a file; only --json writes to standard output", name));
   std::error_code ignored;
   if (!std::filesystem::is_directory(options.golden, ignored)) return;
   for (const auto& [name, value] : {std::pair("-o", options.output), {"--draws", options.draws}, {"--texel", options.texel}})
@@ -202,10 +204,11 @@ int run(const Options& options) {
   if (!options.waivers.empty()) inputs.push_back(file_input(options.waivers, "waivers"));
   nlohmann::ordered_json document = diff_document(pairs, asked.thresholds, inputs, run_info);
   document["unused_waivers"] = unused;
+  if (!unused.empty()) document["verdict"] = to_string(std::max(worst_verdict(pairs), PairVerdict::failure));
   {
     const FinishWriting finish;
     if (pairs.size() == 1) write_difference(options, pairs.front());
-    if (!options.junit.empty()) io::write_file(options.junit, diff_junit(pairs, asked.thresholds));
+    if (!options.junit.empty()) io::write_file(options.junit, diff_junit(pairs, asked.thresholds, unused));
     if (!options.html.empty()) io::write_file(options.html, diff_page(pairs, asked.thresholds, run_info));
   }
   write_document(options.common, document);
@@ -223,7 +226,9 @@ void add_threshold_options(CLI::App& app, Options& options) {
       ->check(positive);
   app.add_option("--failpercent", options.fail_percent, "So many percent of the texels may (0)")->type_name("P")->check(percent);
   app.add_option("--hardfail", options.hard_fail, "No texel may differ by more (inf)")->type_name("X")->check(positive);
-  app.add_option("--allowfailures", options.allow_failures, "So many texels may differ by any amount (0)")->type_name("N");
+  app.add_option("--allowfailures", options.allow_failures, "So many texels may differ by any amount (0)")
+      ->type_name("N")
+      ->check(number_between(0, 1e15));
   app.add_option("--warn", options.warn, "Differences above this warn (as --fail)")->type_name("X")->check(positive);
   app.add_option("--warnrelative", options.warn_relative, "(as --failrelative)")->type_name("R")->check(positive);
   app.add_option("--warnpercent", options.warn_percent, "(0)")->type_name("P")->check(percent);

@@ -35,7 +35,9 @@ bool is_texture_of_draws(const fs::path& path) {
 std::map<std::string, std::string> pictures_below(const std::string& folder) {
   std::map<std::string, std::string> found;
   std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+  // Folders behind links too: what is not looked at would pass.
+  constexpr auto kFollow = fs::directory_options::follow_directory_symlink;
+  for (fs::recursive_directory_iterator at(folder, kFollow, error), end; !error && at != end; at.increment(error)) {
     std::error_code ignored;
     if (at->is_regular_file(ignored) && is_picture(at->path()) && !is_texture_of_draws(at->path()))
       found.emplace(at->path().lexically_relative(folder).generic_string(), at->path().string());

@@ -1,5 +1,7 @@
 // etalon diff as its users call it: idiff's options and codes, classes by a device, folders, documents, waivers, refusals.
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -81,6 +83,7 @@ TEST_CASE("diff: idiff's options, with one dash or two, and its codes") {
   const CommandResult said = diff(folder, {"a.png", "b.png", "--texel", "2,1"});
   CHECK(said.out.find("max error 0.156863 at (2, 1) B") != std::string::npos);
   CHECK(said.out.find("would pass: --fail 0.1568") != std::string::npos);
+  CHECK(said.out.find("--failpercent 6.25 --warnpercent 6.25,") != std::string::npos);  // the test above: no warning then
   CHECK(said.out.find("--allowfailures 1") != std::string::npos);
   CHECK(said.out.find("texel (2, 1): golden 100 100 100 (rgb unorm8), candidate 100 100 140") != std::string::npos);
   CHECK(said.out.find("FAILURE") != std::string::npos);
@@ -158,6 +161,16 @@ TEST_CASE("diff: folders by relative name; what is missing fails, what cannot be
   check_refused({"diff", "g", "c", "-o", "d.png"}, 64, folder, "not of two folders");
 }
 
+TEST_CASE("diff: folders behind links are compared too") {
+  const ScratchFolder folder;
+  for (const char* name : {"golden", "candidate", "g", "c"}) std::filesystem::create_directory(folder.path() / name);
+  write_grey(folder.path() / "golden/a.png", 100);
+  write_grey(folder.path() / "candidate/a.png", 120);
+  std::filesystem::create_directory_symlink("../golden", folder.path() / "g/link");
+  std::filesystem::create_directory_symlink("../candidate", folder.path() / "c/link");
+  CHECK(diff(folder, {"g", "c"}).exit_code == 2);
+}
+
 TEST_CASE("diff --device: classes by the draws that the golden names") {
   const ScratchFolder folder;
   write_golden(folder);
@@ -210,6 +223,29 @@ TEST_CASE("diff --device: with the pictures alone a tie is only perhaps one") {
   CHECK(diff(folder, {"alone/golden.png", "near.png", "--device", "llvmpipe"}).out.find("not proven") != std::string::npos);
 }
 
+TEST_CASE("diff --device: of the pictures alone, what is not finite is identical to itself and near nothing") {
+  const ScratchFolder folder;
+  const float inf = std::numeric_limits<float>::infinity();
+  const auto write = [&](const std::string& name, float first, float second) {
+    Image image(2, 1, PixelFormat{ChannelType::float32, 3});
+    for (int c = 0; c < 3; ++c) image.channels<float>(0, 0)[c] = first, image.channels<float>(1, 0)[c] = second;
+    io::write_image(folder.path() / name, image);
+  };
+  const auto unexplained = [&](const std::string& a, const std::string& b, int exit_code) {
+    const json job = diff_document(folder, {a, b, "--device", "gl"}, exit_code)["jobs"][0];
+    CHECK(job["tie?"] == 0);
+    return job["unexplained"].get<int>();
+  };
+  write("nan.exr", std::nanf(""), inf);
+  write("same.exr", std::nanf(""), inf);
+  write("other.exr", 0.5f, -inf);
+  write("number.exr", 0.5f, 3);
+  CHECK(unexplained("nan.exr", "same.exr", 0) == 0);
+  CHECK(unexplained("nan.exr", "other.exr", 2) == 2);
+  CHECK(unexplained("other.exr", "number.exr", 2) == 1);
+  CHECK(unexplained("number.exr", "other.exr", 2) == 1);
+}
+
 TEST_CASE("diff --device: draws that do not fit are refused") {
   const ScratchFolder folder;
   write_golden(folder);
@@ -244,6 +280,27 @@ TEST_CASE("diff --waivers: a reason, a device, an end; one that covers nothing f
   CHECK(with("wrong.png", "llvmpipe", "9999-12-31", "golden.png").exit_code == 2);
   CHECK(with("wrong.png", "d3d11", "9999-12-31", "golden.png").exit_code == 0);  // another device's is not asked
   CHECK(with("wrong.png", "d3d11", "9999-12-31", "wrong.png").exit_code == 2);
+  // One that covers nothing is seen also by who reads the documents only.
+  folder.file(
+      "w.json",
+      R"({"schema":"etalon/waivers/1","waivers":[{"pair":"gone.png","device":"llvmpipe","reason":"<r>","expires":"9999-12-31","texels":1}]})");
+  const json document =
+      diff_document(folder, {"golden.exr", "golden.png", "--device", "llvmpipe", "--waivers", "w.json", "--junit", "w.xml"}, 2);
+  CHECK(document["verdict"] == "failure");
+  CHECK(document["jobs"][0]["verdict"] == "pass");
+  const std::string junit = read_text(folder.path() / "w.xml");
+  CHECK(junit.find("tests=\"2\" failures=\"1\"") != std::string::npos);
+  CHECK(junit.find("<failure message=\"waiver of gone.png: covers nothing") != std::string::npos);
+  // A waiver proves no tie.
+  write_candidate(folder, "tie.png", [](Image& image) {
+    image.channels<std::uint8_t>(32, 32)[0] ^= 0x40;
+    image.channels<std::uint8_t>(1, 1)[0] ^= 1;
+  });
+  folder.file(
+      "w.json",
+      R"({"schema":"etalon/waivers/1","waivers":[{"pair":"tie.png","device":"llvmpipe","reason":"r","expires":"9999-12-31","texels":1}]})");
+  std::filesystem::copy_file(folder.path() / "golden.png", folder.path() / "alone.png");
+  CHECK(diff(folder, {"alone.png", "tie.png", "--device", "llvmpipe", "--waivers", "w.json"}).exit_code == 1);
   const auto refused = [&](const std::string& text, const std::string& mentions) {
     folder.file("w.json", text);
     check_refused({"diff", "golden.exr", "golden.png", "--device", "d3d11", "--waivers", "w.json"}, 4, folder, mentions);
@@ -276,6 +333,9 @@ TEST_CASE("diff: what the command line cannot mean") {
   check_refused({"diff", "a.png", "a.png", "-od"}, 64, folder, "--od needs -o");
   check_refused({"diff", "a.png", "a.png", "--texel", "1"}, 64, folder, "--texel: expected X,Y");
   check_refused({"diff", "a.png", "a.png", "--fail", "-1"}, 64, folder, "fail");
+  check_refused({"diff", "a.png", "a.png", "--allowfailures", "-1"}, 64, folder, "allowfailures");
+  for (const char* option : {"-o", "--html", "--junit"})
+    check_refused({"diff", "a.png", "a.png", option, "-"}, 64, folder, "only --json writes to standard output");
   check_refused({"diff", "a.png", "a.png", "-o", "a.png"}, 64, folder, "a.png");
   check_refused({"diff", "a.png", "a.png", "--texel", "9,9"}, 4, folder, "texel (9, 9) is outside");
   check_refused({"diff", "a.png", "none.png"}, 4, folder, "none.png");

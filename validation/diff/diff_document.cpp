@@ -37,6 +37,7 @@ Json to_json(const PixelComparison& p) {
            {{"fail", optional_number(p.passing.absolute)},
             {"failrelative", optional_number(p.passing.relative)},
             {"failpercent", optional_number(p.passing.percent)},
+            {"hardfail", optional_number(p.passing.hard)},
             {"allowfailures", p.passing.allow_failures}}}};
 }
 
@@ -88,7 +89,11 @@ std::string would_pass(const PixelComparison& p) {
   const auto add = [&](const std::string& option) { text += (text.empty() ? "would pass: " : ", or ") + option; };
   if (p.passing.absolute) add(fmt::format("--fail {}", *p.passing.absolute));
   if (p.passing.relative && *p.passing.relative < 2) add(fmt::format("--failrelative {}", *p.passing.relative));
-  if (p.passing.percent) add(fmt::format("--failpercent {}", *p.passing.percent));
+  // As in idiff, what a share may fail by still warns.
+  if (p.passing.percent)
+    add(fmt::format("--failpercent {}", *p.passing.percent) +
+        (*p.passing.percent > 0 ? fmt::format(" --warnpercent {}", *p.passing.percent) : ""));
+  if (p.passing.hard) add(fmt::format("--hardfail {}", *p.passing.hard));
   add(fmt::format("--allowfailures {}", p.passing.allow_failures));
   return text;
 }
@@ -154,7 +159,8 @@ std::vector<std::string> pair_lines(const PairResult& pair, const PixelThreshold
   return lines;
 }
 
-std::string diff_junit(const std::vector<PairResult>& pairs, const PixelThresholds& thresholds) {
+std::string diff_junit(const std::vector<PairResult>& pairs, const PixelThresholds& thresholds,
+                       const std::vector<std::string>& unused_waivers) {
   std::size_t failures = 0, errors = 0;
   std::string cases;
   for (const PairResult& pair : pairs) {
@@ -173,10 +179,14 @@ std::string diff_junit(const std::vector<PairResult>& pairs, const PixelThreshol
     }
     cases += "</testcase>\n";
   }
+  for (const std::string& waiver : unused_waivers) {
+    ++failures;
+    cases += fmt::format("  <testcase classname=\"etalon diff\" name=\"{0}\"><failure message=\"{0}\"/></testcase>\n", escaped(waiver));
+  }
   return fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"etalon diff\" tests=\"{}\" failures=\"{}\" "
       "errors=\"{}\">\n{}</testsuite>\n",
-      pairs.size(), failures, errors, cases);
+      pairs.size() + unused_waivers.size(), failures, errors, cases);
 }
 
 }  // namespace etalon::validation

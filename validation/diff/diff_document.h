@@ -16,7 +16,8 @@ namespace etalon::validation {
                                                    const std::vector<VerifyInput>& inputs, const RunInfo& run);
 
 /// One test case a pair: a failure where it differs, an error where it could not be read; times are left out, so that the same input gives the same bytes.
-[[nodiscard]] std::string diff_junit(const std::vector<PairResult>& pairs, const PixelThresholds& thresholds);
+[[nodiscard]] std::string diff_junit(const std::vector<PairResult>& pairs, const PixelThresholds& thresholds,
+                                     const std::vector<std::string>& unused_waivers);
 
 /// What a person reads of a pair, a line each, without its name.
 [[nodiscard]] std::vector<std::string> pair_lines(const PairResult& pair, const PixelThresholds& thresholds);

@@ -165,6 +165,12 @@ double storage_step(ChannelType type) {
   }
 }
 
+// NaN equals NaN, and infinity infinity of its sign; neither is near anything else.
+bool within(double a, double b, double limit) {
+  if (!std::isfinite(a) || !std::isfinite(b)) return a == b || (std::isnan(a) && std::isnan(b));
+  return std::abs(a - b) <= limit * std::max(1.0, std::abs(b));
+}
+
 // Classes by the pictures alone: what is within one step of the golden's value there, or of one of the eight around it, may be a legal
 // rounding or a tie. Nothing more can be said: "tie?".
 Image classify_by_image(PairResult& result, const Image& golden, const Image& candidate) {
@@ -183,7 +189,7 @@ Image classify_by_image(PairResult& result, const Image& golden, const Image& ca
       const auto near = [&](int k, int nx, double limit) {
         const double* other = around[k].data() + static_cast<std::ptrdiff_t>(std::clamp(nx, 0, width - 1)) * channels;
         for (int c = 0; c < channels; ++c)
-          if (!(std::abs(value[c] - other[c]) <= limit * std::max(1.0, std::abs(other[c])))) return false;
+          if (!within(value[c], other[c], limit)) return false;
         return true;
       };
       TexelClass texel_class = TexelClass::unexplained;

@@ -86,7 +86,7 @@ std::vector<std::string> apply_waivers(std::vector<PairResult>& pairs, const std
       const bool fails = pair.status == PairStatus::compared && pair.verdict == PairVerdict::failure;
       if (pair.name != waiver.pair || !fails || pair.page.tally.unexplained > waiver.texels) continue;
       used = true;
-      pair.verdict = PairVerdict::pass;
+      pair.verdict = pair.unproven_ties > 0 ? PairVerdict::warning : PairVerdict::pass;  // a waiver proves no tie
       pair.note = fmt::format("waived until {}: {}", waiver.expires, waiver.reason);
     }
     if (!used)

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <vector>
 
 #include "core/base/error.h"
@@ -16,12 +17,37 @@
 namespace etalon::validation {
 namespace {
 
+// What each differing texel needs of one threshold to be within it: the largest of all, and, where some texels may fail, every one.
+struct LargestNeeds {
+  double largest = 0;
+  std::vector<double> all;
+
+  void add(double need, bool keep) {
+    largest = std::max(largest, need);
+    if (keep && need > 0) all.push_back(need);
+  }
+  void add(const LargestNeeds& other) {
+    largest = std::max(largest, other.largest);
+    all.insert(all.end(), other.all.begin(), other.all.end());
+  }
+  // The smallest value that at most `tolerated` texels exceed.
+  double but(std::uint64_t tolerated) {
+    if (tolerated == 0) return largest;
+    if (tolerated >= all.size()) return 0;
+    const auto place = all.begin() + static_cast<std::ptrdiff_t>(tolerated);
+    std::nth_element(all.begin(), place, all.end(), std::greater<>());
+    return *place;
+  }
+};
+enum Need : std::size_t { kAbsolute, kRelative, kHard };
+
 struct RowSums {
   std::uint64_t differing = 0;
   double absolute = 0, squared = 0, largest = 1;
-  double max_error = 0, max_relative = 0, relative_over = 0;  // relative_over: of values above the absolute limit
+  double max_error = 0, max_relative = 0;
   int max_x = -1, max_channel = -1;
   PixelCount fail, warn;
+  std::array<LargestNeeds, 3> needs;
 };
 
 double difference(double a, double b) {
@@ -95,9 +121,11 @@ class PixelState {
 };
 
 void compare_run(const double* a, const double* b, Run run, int channels, const PixelThresholds& thresholds, RowSums& sums) {
+  const bool keep_needs = thresholds.fail.percent > 0 || thresholds.allow_failures > 0;
   PixelState fail(thresholds.fail, sums.fail), warn(thresholds.warn, sums.warn);
   for (int x = run.begin; x < run.end; ++x) {
     bool differs = false;
+    std::array<double, 3> need{};
     for (int c = 0; c < channels; ++c, ++a, ++b) {
       sums.largest = std::max({sums.largest, std::isfinite(*a) ? *a : 0, std::isfinite(*b) ? *b : 0});
       const double error = difference(*a, *b);
@@ -111,12 +139,15 @@ void compare_run(const double* a, const double* b, Run run, int channels, const 
       if (error > sums.max_error) sums.max_error = error, sums.max_x = x, sums.max_channel = c;
       const double relative = std::isfinite(error) ? error / mean : error;
       sums.max_relative = std::max(sums.max_relative, relative);
-      if (error > thresholds.fail.absolute) sums.relative_over = std::max(sums.relative_over, relative);
+      if (error > mean * thresholds.fail.relative) need[kAbsolute] = std::max(need[kAbsolute], error);
+      if (error > thresholds.fail.absolute) need[kRelative] = std::max(need[kRelative], relative);
+      need[kHard] = std::max(need[kHard], error);
       fail.add(error, mean);
       warn.add(error, mean);
     }
     if (!differs) continue;
     ++sums.differing;
+    for (std::size_t n = 0; n < need.size(); ++n) sums.needs[n].add(need[n], keep_needs);
     fail.end_pixel();
     warn.end_pixel();
   }
@@ -144,9 +175,12 @@ void run_values(const Image& image, Run run, int y, int channels, double* out) {
   }
 }
 
+bool over_percent(const PixelLimit& limit, std::uint64_t over, std::uint64_t pixels) {
+  return static_cast<double>(over) > limit.percent / 100 * static_cast<double>(pixels);
+}
+
 bool too_many(const PixelLimit& limit, const PixelCount& count, std::uint64_t pixels, std::uint64_t allowed) {
-  const bool over = static_cast<double>(count.over) > limit.percent / 100 * static_cast<double>(pixels) && count.over > allowed;
-  return over || count.over_hard > allowed;
+  return (over_percent(limit, count.over, pixels) && count.over > allowed) || count.over_hard > allowed;
 }
 
 // The smallest percentage that `over` of `pixels` does not exceed, by too_many()'s own arithmetic.
@@ -158,6 +192,26 @@ double passing_percent(std::uint64_t over, std::uint64_t pixels) {
 
 // The smallest relative threshold that no value exceeds: the quotient, or the number above it where its product rounds down.
 double passing_relative(double quotient) { return quotient == 0 ? 0 : std::nextafter(quotient, 3.0); }
+
+PassingThresholds passing_thresholds(std::array<LargestNeeds, 3>& needs, const PixelThresholds& thresholds, const PixelCount& count,
+                                     std::uint64_t pixels) {
+  const PixelLimit& limit = thresholds.fail;
+  const std::uint64_t allowed = thresholds.allow_failures;
+  const bool over = over_percent(limit, count.over, pixels);
+  PassingThresholds passing;
+  passing.allow_failures = std::max(over ? count.over : 0, count.over_hard);
+  if (count.over_hard > allowed) {  // then only what speaks of single texels helps
+    const double hard = needs[kHard].but(allowed);
+    if (std::isfinite(hard) && (!over || count.over <= allowed)) passing.hard = hard;
+    return passing;
+  }
+  const auto share = static_cast<std::uint64_t>(limit.percent / 100 * static_cast<double>(pixels));
+  const std::uint64_t tolerated = std::max(allowed, share);
+  if (const double absolute = needs[kAbsolute].but(tolerated); std::isfinite(absolute)) passing.absolute = absolute;
+  if (const double relative = needs[kRelative].but(tolerated); std::isfinite(relative)) passing.relative = passing_relative(relative);
+  passing.percent = count.over <= allowed ? 0 : passing_percent(count.over, pixels);
+  return passing;
+}
 
 }  // namespace
 
@@ -191,7 +245,7 @@ PixelComparison compare_pixels(const Image& a, const Image& b, const PixelThresh
     sum.absolute += row.absolute;
     sum.squared += row.squared;
     sum.largest = std::max(sum.largest, row.largest);
-    sum.relative_over = std::max(sum.relative_over, row.relative_over);
+    for (std::size_t n = 0; n < sum.needs.size(); ++n) sum.needs[n].add(row.needs[n]);
     result.differing += row.differing;
     result.max_relative = std::max(result.max_relative, row.max_relative);
     if (row.max_error > result.max_error) {
@@ -205,12 +259,7 @@ PixelComparison compare_pixels(const Image& a, const Image& b, const PixelThresh
   result.mean_error = sum.absolute / samples;
   result.rms_error = std::sqrt(sum.squared / samples);
   result.psnr_db = psnr_db(sum.squared, result.pixels * static_cast<std::uint64_t>(result.channels), sum.largest);
-  if (std::isfinite(result.max_error)) {
-    result.passing.absolute = result.max_error;
-    result.passing.relative = passing_relative(sum.relative_over);
-  }
-  result.passing.percent = passing_percent(result.fail.over, result.pixels);
-  result.passing.allow_failures = result.fail.over;
+  result.passing = passing_thresholds(sum.needs, thresholds, result.fail, result.pixels);
   if (too_many(thresholds.fail, result.fail, result.pixels, thresholds.allow_failures))
     result.verdict = PixelVerdict::failure;
   else if (too_many(thresholds.warn, result.warn, result.pixels, thresholds.allow_failures))

@@ -32,9 +32,10 @@ struct PixelCount {
   std::uint64_t over_hard = 0;  ///< pixels with a difference above `hard`
 };
 
-/// The smallest value of one threshold that lets the pair pass with the others as they are (hard and allow_failures aside); nothing where none does.
+/// The smallest value of one threshold of `fail` with which the pair does not fail, the others as they are; nothing where none does it (what is
+/// not finite; more pixels above `hard` than are allowed). `hard` only where it is what fails.
 struct PassingThresholds {
-  std::optional<double> absolute, relative, percent;
+  std::optional<double> absolute, relative, percent, hard;
   std::uint64_t allow_failures = 0;
 };
 

@@ -103,6 +103,44 @@ TEST_CASE("pixels: the smallest thresholds that pass do pass, and a smaller one 
   }
 }
 
+TEST_CASE("pixels: the smallest thresholds that pass, with every other threshold given too") {
+  Rng rng(11);
+  int by_hard = 0, by_none = 0, tolerant = 0;
+  for (int n = 0; n < 2000; ++n) {
+    Image a(5, 4, kRg32f), b = a;
+    for (int i = 0; i < 5 * 4 * 2; ++i) {
+      a.channels<float>(0, 0)[i] = static_cast<float>(rng.below(8)) / 4;
+      b.channels<float>(0, 0)[i] = a.channels<float>(0, 0)[i] + (rng.below(4) == 0 ? static_cast<float>(rng.below(9)) / 8 - 0.5f : 0);
+    }
+    const PixelLimit nothing{.absolute = 1e9};
+    PixelThresholds given{.fail = {.absolute = rng.below(2) * 0.2, .relative = rng.below(3) * 0.25, .percent = rng.below(3) * 9.0}};
+    given.warn = nothing;
+    if (rng.below(3) == 0) given.fail.hard = rng.below(5) * 0.1;
+    given.allow_failures = rng.below(3);
+    const PassingThresholds passing = compare_pixels(a, b, given).passing;
+    const auto fails = [&](const auto& change) {
+      PixelThresholds changed = given;
+      change(changed);
+      return compare_pixels(a, b, changed).verdict == PixelVerdict::failure;
+    };
+    const auto smallest = [&](const std::optional<double>& value, double PixelLimit::*limit) {
+      const double tried = value.value_or(1e9), less = tried - std::max(tried, 1e-3) * 0x1p-40;
+      CHECK(fails([&](PixelThresholds& t) { t.fail.*limit = tried; }) == !value);
+      if (value && less >= 0) CHECK(fails([&](PixelThresholds& t) { t.fail.*limit = less; }));
+    };
+    smallest(passing.absolute, &PixelLimit::absolute);
+    smallest(passing.relative, &PixelLimit::relative);
+    smallest(passing.percent, &PixelLimit::percent);
+    if (passing.hard) smallest(passing.hard, &PixelLimit::hard);
+    CHECK(!fails([&](PixelThresholds& t) { t.allow_failures = passing.allow_failures; }));
+    if (passing.allow_failures > 0) CHECK(fails([&](PixelThresholds& t) { t.allow_failures = passing.allow_failures - 1; }));
+    by_hard += passing.hard ? 1 : 0;
+    by_none += !passing.hard && !passing.absolute ? 1 : 0;
+    tolerant += passing.absolute && *passing.absolute > 0 && given.fail.percent > 0 ? 1 : 0;
+  }
+  CHECK((by_hard > 50 && by_none > 50 && tolerant > 50));
+}
+
 TEST_CASE("pixels: formats may differ, what is missing is 0, and NaN equals NaN only") {
   Image bytes = grey(), words(4, 4, {ChannelType::unorm16, 3});
   for (int i = 0; i < 48; ++i) words.channels<std::uint16_t>(0, 0)[i] = 25700;  // 25700 / 65535 = 100 / 255
