@@ -63,11 +63,13 @@ std::string prose(const std::string& text) { return std::regex_replace(text, std
 
 /// Authors and year of a citation, without the place in the work: "Hoppe 1999" of "Hoppe 1999, sec. 4".
 std::vector<std::string> citations_of(const std::string& text) {
-  static const std::regex kBrackets(R"(\[([A-Z][^\[\]\n"`]{2,120})\])");
+  // A citation may go on in the next line of a comment.
+  static const std::regex kLineEnd("\n *(//+<?)? *"), kBrackets(R"(\[([A-Z][^\[\]`]{2,160})\])");
   static const std::regex kWork(
       R"(^(([A-Z][A-Za-z]+(, [A-Z][A-Za-z]+)*( & [A-Z][A-Za-z]+| et al\.)?) (1[89]|20)[0-9]{2}|IEC [0-9:-]+|ISO [0-9-]+))");
   std::vector<std::string> works;
-  for (const std::smatch& m : matches(text, kBrackets)) {
+  const std::string unwrapped = std::regex_replace(text, kLineEnd, " ");
+  for (const std::smatch& m : matches(unwrapped, kBrackets)) {
     const std::string inside = m[1];
     for (std::size_t at = 0; at < inside.size();) {
       const std::size_t end = std::min(inside.find("; ", at), inside.size());
@@ -145,4 +147,5 @@ TEST_CASE("docs: every work that sources and pages cite is in the bibliography")
   }
   CHECK(citations_of("// [Hoppe 1999, sec. 4; "
                      "Nobody & Else 1901]") == std::vector<std::string>{"Hoppe 1999", "Nobody & Else 1901"});
+  CHECK(citations_of("/// [Nobody\n/// 1901, \"title\"]") == std::vector<std::string>{"Nobody 1901"});
 }
