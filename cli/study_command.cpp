@@ -20,6 +20,7 @@
 #include "raster/cpu_renderer.h"
 #include "validation/report/html_report.h"
 #include "validation/report/json_report.h"
+#include "validation/report/study_index.h"
 #include "validation/report/study_page.h"
 #include "validation/studies/chen_report.h"
 #include "validation/studies/horbelt_report.h"
@@ -198,6 +199,21 @@ Studied study_soucy(const Options& options, const OpenedDevice& device, Console&
   return {soucy_report(result, exact), result.device_name, result.unexplained()};
 }
 
+Studied run_study(const Options& options, const OpenedDevice& device, Console& console, CallFiles& files) {
+  Studied studied = (options.study == "chen"      ? study_chen
+                     : options.study == "horbelt" ? study_horbelt
+                     : options.study == "kim"     ? study_kim
+                                                  : study_soucy)(options, device, console, files);
+  if (options.quick) {
+    const std::string warning = "A quick run: small models, few samples. No figure of it counts.";
+    studied.report.lede = warning + " " + studied.report.lede;
+    console.line("note: " + warning);
+  }
+  for (const StudyClaim& claim : studied.report.claims)
+    console.line(fmt::format("{:<6} {} {}", to_string(claim.verdict), claim.claim, claim.measured));
+  return studied;
+}
+
 /// What to type to repeat it, paths by their last part.
 std::string command_of(const Options& options) {
   std::string command = "etalon study " + options.study;
@@ -217,6 +233,8 @@ std::string command_of(const Options& options) {
 }
 
 void check_options(const Options& options) {
+  if (options.study == "all" && !options.models.empty())
+    throw UsageError("study all: models belong to one study (chen, kim, soucy or horbelt), got " + options.models.front());
   const bool chen = options.study == "chen";
   if (!chen && options.study != "soucy" && (!options.faces.empty() || !options.texture.empty()))
     throw UsageError(fmt::format("study {}: --faces and --texture belong to study chen and study soucy", options.study));
@@ -234,6 +252,37 @@ void check_options(const Options& options) {
     throw UsageError(fmt::format("study {}: --reduction belongs to study kim", options.study));
 }
 
+RunInfo run_of(const Studied& studied, std::chrono::steady_clock::time_point start) {
+  RunInfo run = current_run(start);
+  for (const VerifyInput& input : studied.report.inputs)
+    if (!input.path.empty()) run.paths.push_back(input.path);
+  run.device = studied.device_name;
+  return run;
+}
+
+/// Each study in its own folder, written as soon as it is done; what is left of it goes into the index.
+Studied run_all(const Options& options, const OpenedDevice& device, Console& console, CallFiles& files) {
+  Studied all{.report = make_study_index()};
+  for (const char* name : {"soucy", "chen", "kim", "horbelt"}) {
+    Options one = options;
+    one.study = name;
+    one.report = (std::filesystem::path(report_folder(options)) / name).string();
+    console.line(fmt::format("study    {}", name));
+    const auto start = std::chrono::steady_clock::now();
+    const Studied studied = run_study(one, device, console, files);
+    {
+      const FinishWriting finish;
+      console.line("report: " + file_url(write_study(one.report, studied.report, run_of(studied, start), command_of(one))));
+    }
+    add_to_index(all.report, studied.report);
+    if (all.device_name.empty()) all.device_name = studied.device_name;
+    all.unexplained += studied.unexplained;
+    all.is_doubtful = all.is_doubtful || studied.is_doubtful;
+  }
+  if (options.quick) all.report.lede = "A quick run: small models, few samples. No figure of it counts. " + all.report.lede;
+  return all;
+}
+
 int run(const Options& options) {
   apply(options.common);
   check_options(options);
@@ -248,30 +297,15 @@ int run(const Options& options) {
   const OpenedDevice device = open_device(options.gl, options.common.threads);
   console.line(fmt::format("device   {}", device.renderer ? device.renderer->name() : "GL: not available (" + device.unavailable + ")"));
 
-  Studied studied = (options.study == "chen"      ? study_chen
-                     : options.study == "horbelt" ? study_horbelt
-                     : options.study == "kim"     ? study_kim
-                                                  : study_soucy)(options, device, console, files);
-  StudyReport& report = studied.report;
-  if (options.quick) {
-    const std::string warning = "A quick run: small models, few samples. No figure of it counts.";
-    report.lede = warning + " " + report.lede;
-    console.line("note: " + warning);
-  }
-  for (const StudyClaim& claim : report.claims)
-    console.line(fmt::format("{:<6} {} {}", to_string(claim.verdict), claim.claim, claim.measured));
-
-  RunInfo run_info = current_run(options.common.start);
-  for (const VerifyInput& input : report.inputs)
-    if (!input.path.empty()) run_info.paths.push_back(input.path);
-  run_info.device = studied.device_name;
+  const Studied studied = (options.study == "all" ? run_all : run_study)(options, device, console, files);
+  const RunInfo run_info = run_of(studied, options.common.start);
   std::filesystem::path page;
   {
     const FinishWriting finish;
-    page = write_study(folder, report, run_info, command_of(options));
+    page = write_study(folder, studied.report, run_info, command_of(options));
   }
   console.line("report: " + file_url(page));
-  write_document(options.common, study_document(report, run_info));
+  write_document(options.common, study_document(studied.report, run_info));
   if (studied.unexplained > 0) {
     print_error(fmt::format("{} unexplained between both renderers", counted(studied.unexplained, "texel")));
     return kExitCheckFailed;
@@ -289,10 +323,10 @@ Verb add_study(CLI::App& root) {
          "study", options->study,
          "chen: Chen & Chuang, texture adaptation for progressive meshes; kim: Kim, Choi & Lee, mesh simplification with vertex "
          "colour; soucy: Soucy, Godin & Rioux, coloured scans baked; horbelt: Horbelt, Balmelli & Vetterli, joint mesh and texture "
-         "compression")
+         "compression; all: the four, each in its folder of the report, and an index over them")
       ->required()
-      ->type_name("chen|kim|soucy|horbelt")
-      ->check(CLI::IsMember({"chen", "kim", "soucy", "horbelt"}));
+      ->type_name("chen|kim|soucy|horbelt|all")
+      ->check(CLI::IsMember({"chen", "kim", "soucy", "horbelt", "all"}));
   app->add_option(
          "models", options->models,
          "chen: textured meshes, or swirl, head, parasaur, bunny, spot; kim: meshes with vertex colours, or monkey, duck, statue; soucy: "
@@ -343,7 +377,7 @@ Verb add_study(CLI::App& root) {
       *app, options->common,
       "  etalon study chen --quick\n  etalon study chen fox.obj --faces 2000 --faces 500 --report fox-study\n  etalon study "
       "kim scan.ply --reduction 0.95 --report scan-study\n  etalon study soucy scan.ply --faces 2000\n  etalon study soucy "
-      "depth.tif --spacing 0.7 --texture colour.png\n  etalon study horbelt dem.tif photo.png --view pass.json --report pass-study");
+      "depth.tif --spacing 0.7 --texture colour.png\n  etalon study horbelt dem.tif photo.png --view pass.json --report pass-study\n  etalon study all --quick");
   return {app, [options] { return run(*options); }};
 }
 

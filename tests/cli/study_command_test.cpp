@@ -1,6 +1,8 @@
 // etalon study: files, documents, exit codes.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -376,4 +378,43 @@ TEST_CASE("study horbelt on files of one's own: odd sizes, 8 and 16 bits, what i
   refused({"bytes.png", "photo.png", "--size", "0x4"}, 64, "--size");
   check_refused({"study", "kim", "duck", "--grid", "33"}, 64, folder, "belong to study horbelt");
   check_refused({"study", "kim", "duck", "--spacing", "3"}, 64, folder, "--spacing belongs to study soucy and study horbelt");
+}
+
+TEST_CASE("study all: each study in its folder, one index with every claim and its verdict") {
+  const ScratchFolder folder;
+  json first;
+  for (const char* out : {"once", "again"}) {
+    const CommandResult result = run_etalon({"study", "all", "--quick", "--report", out, "--json", "-"},
+                                            {.folder = folder.path(), .environment = {"ETALON_DATA=/nonexistent"}});
+    CAPTURE(result.err);
+    REQUIRE(result.exit_code == 0);
+    json document = json::parse(result.out);
+    const json schema = json::parse(read_text(std::string(ETALON_SCHEMAS) + "/study.json"));
+    for (const std::string& violation : schema_violations(schema, document)) FAIL_CHECK(violation);
+    CHECK(document["study"] == "all");
+    std::size_t claims = 0;
+    const std::filesystem::path report = folder.path() / out;
+    const std::string page = read_text(report / "index.html");
+    for (const std::string name : {"soucy", "chen", "kim", "horbelt"}) {
+      CAPTURE(name);
+      const json study = json::parse(read_text(report / name / "study.json"));
+      claims += study["claims"].size();
+      CHECK(page.find("href=\"" + name + "/index.html\"") != std::string::npos);
+      CHECK(std::filesystem::exists(report / name / "index.html"));
+      for (const json& table : study["tables"]) {
+        const std::string csv = name + "/" + table["name"].get<std::string>() + ".csv";
+        CAPTURE(csv);
+        CHECK(page.find("href=\"" + csv + "\"") != std::string::npos);
+        CHECK(std::filesystem::exists(report / csv));
+      }
+    }
+    CHECK(claims > 20);
+    CHECK(document["claims"].size() == claims);
+    CHECK(document["pictures"].size() >= 4);
+    CHECK(std::filesystem::exists(report / "all-claims.csv"));
+    document.erase("run");
+    if (first.is_null()) first = document;
+    CHECK(first == document);
+  }
+  check_refused({"study", "all", "fox.obj"}, 64, folder, "models belong to one study");
 }

@@ -77,6 +77,7 @@ std::string study_markdown(const StudyReport& report, const RunInfo& run, const 
   for (const StudyFigure& figure : report.figures) {
     text += fmt::format("\n### {}\n\n{}\n", figure.title, figure.caption);
     for (const StudyFile& file : figure.files) text += fmt::format("\n[{0}]({0}): {1}\n", file.file, file.label);
+    for (const StudyLink& link : figure.links) text += fmt::format("\n[{0}]({0}): {1}\n", link.href, link.label);
     if (!figure.svg.empty()) text += fmt::format("\n![{}]({})\n", figure.title, study_drawing_file(figure));
     for (const StudyPicture& picture : figure.pictures) text += fmt::format("\n![{0}]({1})\n{0}\n", picture.label, picture.file);
   }

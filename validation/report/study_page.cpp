@@ -49,6 +49,8 @@ std::string figure_html(const StudyFigure& figure) {
                                  escaped(figure.caption));
   for (const StudyFile& file : figure.files)
     html += fmt::format("<p class=\"soft\"><a href=\"{0}\">{0}</a>: {1}</p>", escaped(file.file), escaped(file.label));
+  for (const StudyLink& link : figure.links)
+    html += fmt::format("<p class=\"soft\"><a href=\"{0}\">{0}</a>: {1}</p>", escaped(link.href), escaped(link.label));
   if (!figure.svg.empty()) html += "<div class=\"drawing\">" + figure.svg + "</div>";
   if (!figure.pictures.empty()) {
     html += fmt::format("<div class=\"row{}\" style=\"--columns:{}\">", figure.is_film ? " film" : "", figure.columns);

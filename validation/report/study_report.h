@@ -43,6 +43,12 @@ struct StudyFile {
   std::string bytes;
 };
 
+/// A page or table elsewhere.
+struct StudyLink {
+  std::string href;  ///< relative to the study's folder
+  std::string label;
+};
+
 struct StudyFigure {
   std::string id;  ///< [a-z0-9-]
   std::string title;
@@ -52,6 +58,7 @@ struct StudyFigure {
   int columns = 3;               ///< pictures side by side
   std::vector<StudyFile> files;  ///< linked below the caption
   bool is_film = false;          ///< the page shows one picture at a time, with a slider; all of them without scripts
+  std::vector<StudyLink> links;  ///< as files, but written by someone else
 };
 
 enum class ClaimVerdict : std::uint8_t { holds, partly, fails };
