@@ -23,6 +23,7 @@
 #include "cli/interrupt.h"
 #include "cli/joint_command.h"
 #include "cli/make_command.h"
+#include "cli/manual.h"
 #include "cli/metro_command.h"
 #include "cli/probe_command.h"
 #include "cli/progressive_command.h"
@@ -73,10 +74,13 @@ int run(int argc, char** argv) {
   root.require_subcommand(1);
   root.footer(
       "Examples:\n  etalon verify\n  etalon verify spot.obj --report spot-report\n  etalon render head.glb -o head.png\n"
-      "Exit codes: 0 done, 1 warning, 2 check failed, 3 sizes differ, 4 bad input or write error, 64 usage, 130 interrupted.");
+      "Exit codes: 0 done, 1 warning, 2 check failed, 3 sizes differ, 4 bad input or write error, 64 usage, 130 interrupted.\n"
+      "etalon --man prints the manual page, etalon --completion a script for bash.");
   const std::vector<Verb> verbs{add_verify(root),      add_render(root), add_info(root),  add_make(root),    add_simplify(root),
                                 add_progressive(root), add_adapt(root),  add_bake(root),  add_joint(root),   add_metro(root),
                                 add_diff(root),        add_probe(root),  add_study(root), add_selftest(root)};
+  if (argc == 2 && argv[1] == std::string("--man")) return write_stdout(man_page(root, validation::etalon_version())), kExitDone;
+  if (argc == 2 && argv[1] == std::string("--completion")) return write_stdout(bash_completion(root)), kExitDone;
   require_known_verb(argc, argv, verbs);
   try {
     std::vector<std::string> arguments = with_two_dashes({argv + 1, argv + argc});
