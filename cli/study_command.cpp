@@ -373,11 +373,11 @@ Verb add_study(CLI::App& root) {
   app->add_flag("--quick", options->quick, "Small models and few samples: seconds, to see whether it works; no figure of it counts");
   app->add_option("--report", options->report, "Folder of the report (default etalon-study-NAME)")->type_name("DIR")->check(not_empty());
   add_gl_options(*app, options->gl);
-  add_common_options(
-      *app, options->common,
-      "  etalon study chen --quick\n  etalon study chen fox.obj --faces 2000 --faces 500 --report fox-study\n  etalon study "
-      "kim scan.ply --reduction 0.95 --report scan-study\n  etalon study soucy scan.ply --faces 2000\n  etalon study soucy "
-      "depth.tif --spacing 0.7 --texture colour.png\n  etalon study horbelt dem.tif photo.png --view pass.json --report pass-study\n  etalon study all --quick");
+  add_common_options(*app, options->common,
+                     "  etalon study chen --quick\n  etalon study chen fox.obj --faces 2000 --faces 500 --report fox-study\n  etalon study "
+                     "kim scan.ply --reduction 0.95 --report scan-study\n  etalon study soucy scan.ply --faces 2000\n  etalon study soucy "
+                     "depth.tif --spacing 0.7 --texture colour.png\n  etalon study horbelt dem.tif photo.png --view pass.json --report "
+                     "pass-study\n  etalon study all --quick");
   return {app, [options] { return run(*options); }};
 }
 
