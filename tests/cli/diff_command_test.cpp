@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/io/exr_file.h"
 #include "core/io/image_file.h"
 #include "tests/cli/run_command.h"
 #include "tests/cli/schema_validator.h"
@@ -221,6 +222,32 @@ TEST_CASE("diff --device: with the pictures alone a tie is only perhaps one") {
   CHECK(document["jobs"][0]["unexplained"] == 0);
   CHECK(document["jobs"][0]["device"]["by_draws"] == false);
   CHECK(diff(folder, {"alone/golden.png", "near.png", "--device", "llvmpipe"}).out.find("not proven") != std::string::npos);
+}
+
+TEST_CASE("diff: of OpenEXR files every channel that both have") {
+  const ScratchFolder folder;
+  const auto write = [&](const std::string& name, const std::string& color, float z, bool with_margin) {
+    const Image grey(3, 2, kR32f);
+    Image depth(3, 2, kR32f);
+    depth.channels<float>(1, 1)[0] = z;
+    io::ExrContent content{{{{color + "R"}, grey}, {{color + "G"}, grey}, {{color + "B"}, grey}, {{"Z"}, depth}}, {}};
+    if (with_margin) content.layers.push_back({{"margin.z"}, depth});
+    io::write_exr(folder.path() / name, content);
+  };
+  write("a.exr", "", 0.5f, true);
+  write("b.exr", "", 0.75f, false);
+  const json job = diff_document(folder, {"a.exr", "b.exr"}, 2)["jobs"][0];
+  CHECK(job["verdict"] == "failure");
+  CHECK(job["note"] == "channel Z: 1 of 6 values differ, by at most 0.25");
+  CHECK(diff(folder, {"a.exr", "b.exr", "--fail", "0.3"}).exit_code == 0);
+  CHECK(diff(folder, {"a.exr", "a.exr"}).exit_code == 0);
+  // Layers, and names that nobody has heard of.
+  write("layer.exr", "beauty.", 0.5f, false);
+  write("other.exr", "beauty.", 1, true);
+  CHECK(diff(folder, {"layer.exr", "layer.exr"}).exit_code == 0);
+  CHECK(diff(folder, {"layer.exr", "other.exr"}).exit_code == 2);
+  io::write_exr(folder.path() / "odd.exr", {{{{"a"}, Image(2, 2, kR32f)}, {{"b"}, Image(2, 2, kR32ui)}}, {}});
+  CHECK(diff(folder, {"odd.exr", "odd.exr"}).exit_code == 0);
 }
 
 TEST_CASE("diff --device: of the pictures alone, what is not finite is identical to itself and near nothing") {

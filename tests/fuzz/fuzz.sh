@@ -48,13 +48,13 @@ run_one() {
   (cd "$work" && "$program" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -malloc_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="$build/fuzz/findings/$name-" corpus "${seeds[@]}") >"$work/log" 2>&1 </dev/null || status=$?
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$work/log")
-  coverage=$(grep -o 'cov: [0-9]* ft: [0-9]*' "$work/log" | tail -n 1)
+  coverage=$(grep -ao 'cov: [0-9]* ft: [0-9]*' "$work/log" | tail -n 1)
   if [ "$status" -eq 0 ]; then
     printf 'fuzz %s: passed, %s runs, %s\n' "$name" "${runs:-?}" "$coverage"
     [ -z "${ETALON_FUZZ_LOG:-}" ] || printf '%s %s\n' "$name" "$seconds" >>"$ETALON_FUZZ_LOG"
   else
     printf '[etalon] failed: fuzz %s: exit code %d after %s runs: %s\n  %s\n' "$name" "$status" "${runs:-?}" \
-      "$(grep -m 1 -E 'SUMMARY|ERROR|a refusal of another form|not as promised' "$work/log")" "$(grep -m 1 'Test unit written to' "$work/log"), log $work/log"
+      "$(grep -a -m 1 -E 'SUMMARY|ERROR|a refusal of another form|not as promised' "$work/log")" "$(grep -a -m 1 'Test unit written to' "$work/log"), log $work/log"
   fi
 }
 

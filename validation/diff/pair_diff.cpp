@@ -253,6 +253,19 @@ PairVerdict verdict_of(const PixelComparison& pixels) {
   return PairVerdict::failure;
 }
 
+// Channels of OpenEXR beside the colours that both files have, by the same thresholds.
+void compare_others(PairResult& result, const Picture& golden, const Picture& candidate, const PixelThresholds& thresholds) {
+  for (const auto& [name, image] : golden.others) {
+    const auto other = candidate.others.find(name);
+    if (other == candidate.others.end()) continue;
+    const PixelComparison pixels = compare_pixels(image, other->second, thresholds);
+    if (pixels.differing == 0) continue;
+    result.verdict = std::max(result.verdict, verdict_of(pixels));
+    result.note += fmt::format("{}channel {}: {} of {} values differ, by at most {:.6g}", result.note.empty() ? "" : "; ", name,
+                               grouped(pixels.differing), grouped(pixels.pixels), pixels.max_error);
+  }
+}
+
 void compare(PairResult& result, Renderer& exact, const PairOptions& options) {
   auto [golden, candidate] = read_pictures(result.golden_path, result.candidate_path);
   result.golden_sha256 = golden.sha256, result.candidate_sha256 = candidate.sha256;
@@ -265,6 +278,7 @@ void compare(PairResult& result, Renderer& exact, const PairOptions& options) {
   }
   result.pixels = compare_pixels(a, b, options.thresholds);
   result.verdict = verdict_of(result.pixels);
+  if (!options.device) compare_others(result, golden, candidate, options.thresholds);
   Image classes;
   if (options.device) {
     const std::optional<io::DrawsFile> draws = find_draws(golden, options, result);

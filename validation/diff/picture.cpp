@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <set>
 
 #include "core/base/parallel.h"
 #include "core/base/sha256.h"
@@ -30,19 +31,29 @@ void decode(std::span<const std::byte> bytes, Picture& picture) {
     picture.color = io::decode_image(bytes, path);
     return;
   }
-  const io::ExrContent content = io::decode_exr(bytes, path);
+  io::ExrContent content = io::decode_exr(bytes, path);
   picture.attributes = content.attributes;
   if (has_channel(content, "id.triangle")) picture.ids = io::channels_image(content, {"id.triangle"}, path);
   if (has_channel(content, "Z")) picture.depth = io::channels_image(content, {"Z"}, path);
   if (picture.ids.empty() || picture.ids.format() != kR32ui) picture.ids = {};
   if (picture.depth.empty() || picture.depth.format() != kR32f) picture.depth = {};
-  const bool colored = has_channel(content, "R") || has_channel(content, "Y");
-  if (!colored && !picture.depth.empty())
-    picture.color = picture.depth;
-  else if (!colored && !picture.ids.empty())
-    picture.color = picture.ids;
-  else
+  std::set<std::string> in_color;
+  if (has_channel(content, "R") || has_channel(content, "Y")) {
     picture.color = io::color_image(content, path);
+    const bool grey = !has_channel(content, "R");
+    for (const char* name : {"R", "G", "B", "A"})
+      if (!grey && has_channel(content, name) && in_color.size() < static_cast<std::size_t>(picture.color.format().channels))
+        in_color.insert(name);
+    if (grey) in_color.insert("Y");
+  } else if (!picture.depth.empty()) {
+    picture.color = picture.depth, in_color.insert("Z");
+  } else if (!picture.ids.empty()) {
+    picture.color = picture.ids, in_color.insert("id.triangle");
+  } else {
+    picture.color = content.layers.front().image, in_color.insert(content.layers.front().channel_names.front());
+  }
+  for (io::ExrLayer& layer : content.layers)
+    if (!in_color.contains(layer.channel_names.front())) picture.others.emplace(layer.channel_names.front(), std::move(layer.image));
 }
 
 }  // namespace

@@ -12,10 +12,11 @@ namespace etalon::validation {
 struct Picture {
   std::string path;
   std::string sha256;                             ///< of the file
-  Image color;                                    ///< of a picture that has only ids or depth: that
+  Image color;                                    ///< of a picture without colour channels: depth, else ids, else the first channel
   Image ids;                                      ///< `id.triangle`; empty where there is none
   Image depth;                                    ///< `Z` as float32; likewise
   std::map<std::string, std::string> attributes;  ///< text of an OpenEXR header
+  std::map<std::string, Image> others;            ///< of OpenEXR: the channels that `color` does not hold, by name, one channel each
 };
 
 /// InputError as read_image() and read_exr().
