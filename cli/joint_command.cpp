@@ -201,7 +201,15 @@ void print_outcome(Console& console, const Options& options, validation::Terrain
                              grouped(static_cast<std::uint64_t>(options.budget_bytes))));
 }
 
-int run(const Options& options) {
+/// Opening a stream takes no other choice: its view, its frame and its levels stand in the file.
+void require_no_choices(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    if (option->count() > 0 && !option->get_positional() && !option->check_lname("output") && !option->check_lname("threads") &&
+        !option->check_lname("quiet"))
+      throw UsageError(fmt::format("joint: {} belongs to DEM IMAGE", option->get_name()));
+}
+
+int run(const Options& options, const CLI::App& app) {
   apply(options.common);
   if (options.output == "-") throw UsageError("joint: the results are several files: expected -o DIR");
   require_writable_folder(options.output);
@@ -210,7 +218,7 @@ int run(const Options& options) {
   if (options.image.empty()) {
     if (!is_joint_stream(options.dem))
       throw UsageError(fmt::format("joint: {}: expected an IMAGE after the DEM, or a file .ejt", options.dem));
-    if (!options.common.json.empty()) throw UsageError("joint: --json belongs to DEM IMAGE");
+    require_no_choices(app);
     open_joint_stream(options.dem, options.output, console);
     return kExitDone;
   }
@@ -302,7 +310,7 @@ Verb add_joint(CLI::App& root) {
                      "  etalon joint dem.tif photo.png --view pass.json --search exhaustive --json - -o both\n"
                      "  etalon joint dem.tif photo.png --budget 20000 -o small\n"
                      "  etalon joint small/joint.ejt -o opened");
-  return {app, [options] { return run(*options); }};
+  return {app, [options, app] { return run(*options, *app); }};
 }
 
 }  // namespace etalon::cli

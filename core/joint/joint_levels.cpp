@@ -57,7 +57,9 @@ void make_textures(const Image& image, const LevelOptions& options, JointLevels&
     }
     if (by_distance) result.texture_steps.back() = static_cast<int>(n);
   }
-  if (result.texture_ends_bytes.empty()) throw InputError("texture: nothing of it is seen in this view");
+  if (result.texture_ends_bytes.empty())
+    throw InputError(
+        "texture: expected a coefficient other than 0, got a view that sees nothing of the image, or an image of one grey, 128");
   result.texture_stream = std::move(encoded.bytes);
   result.texture_stream.resize(result.texture_ends_bytes.back());
   result.significant_total = encoded.significant_total;

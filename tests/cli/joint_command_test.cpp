@@ -134,7 +134,13 @@ TEST_CASE("joint: a stream, and a beginning of it, is opened as the model that w
   CHECK(refused.exit_code == 4);
   CHECK(refused.err.find("short.ejt: joint stream: byte") != std::string::npos);
   CHECK(run_etalon({"joint", "dem.tif", "-o", "none"}, {.folder = folder.path()}).exit_code == 64);
-  CHECK(run_etalon({"joint", "whole/joint.ejt", "-o", "none", "--json", "-"}, {.folder = folder.path()}).exit_code == 64);
+  for (const auto& [name, value] :
+       {std::pair{"--json", "-"}, {"--budget", "400"}, {"--size", "40x30"}, {"--view", "fit"}, {"--grid", "33"}}) {
+    const CommandResult choice = run_etalon({"joint", "whole/joint.ejt", "-o", "none", name, value}, {.folder = folder.path()});
+    CHECK(choice.exit_code == 64);
+    CHECK(choice.err.find(std::string(name) + " belongs to DEM IMAGE") != std::string::npos);
+  }
+  CHECK(run_etalon({"joint", "whole/joint.ejt", "-o", "threads", "--threads", "2", "--quiet"}, {.folder = folder.path()}).exit_code == 0);
   CHECK_FALSE(std::filesystem::exists(folder.path() / "none"));
 }
 

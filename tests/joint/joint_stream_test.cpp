@@ -259,5 +259,11 @@ TEST_CASE("a view of nothing, a picture that is none: refused") {
   away.target = {0, 120, 500};
   CHECK_THROWS_AS((void)make_joint_levels(small_field(), small_image(32, 32), away), InputError);
   CHECK_THROWS_AS((void)make_joint_levels(small_field(), Image(8, 8, kRg32f), small_view()), InputError);
+  // Grey 128 is the level that both kernels code as 0: there is nothing to send, and the message says so. Grey 127 has a coefficient.
+  Image grey = small_image(32, 32);
+  std::ranges::fill(grey.bytes(), std::byte{128});
+  CHECK_THROWS_WITH_AS((void)make_joint_levels(small_field(), grey, small_view()), doctest::Contains("of one grey, 128"), InputError);
+  std::ranges::fill(grey.bytes(), std::byte{127});
+  CHECK(make_joint_levels(small_field(), grey, small_view()).significant_total > 0);
   CHECK_THROWS_AS((void)make_joint_levels(small_field(), small_image(32, 32), small_view(), {.from = 0}), InputError);
 }
