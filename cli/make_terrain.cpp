@@ -73,6 +73,7 @@ int run_make_terrain(const MakeTerrainOptions& options, const CommonOptions& com
                            alps.texture.width(), alps.texture.height()));
   console.line("wrote " + options.output);
   console.line("wrote " + texture.string());
+  console.line(fmt::format("try: etalon joint {} {} --spacing {} -o FOLDER", options.output, texture.string(), alps.spacing));
   write_document(common, document_of(options, common, alps));
   if (!common.json.empty() && common.json != "-") console.line("wrote " + common.json);
   return kExitDone;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string_view>
+#include <vector>
 
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
@@ -39,10 +40,11 @@ ChannelType channel_type(const OIIO::TypeDesc& type, const std::string& name) {
     case OIIO::TypeDesc::UINT8: return ChannelType::unorm8;
     case OIIO::TypeDesc::UINT16: return ChannelType::unorm16;
     case OIIO::TypeDesc::HALF: return ChannelType::half;
+    case OIIO::TypeDesc::INT16:
     case OIIO::TypeDesc::FLOAT:
     case OIIO::TypeDesc::DOUBLE: return ChannelType::float32;
     case OIIO::TypeDesc::UINT32: return ChannelType::uint32;
-    default: fail_file(name, fmt::format("channel type: expected 8 or 16 bit, half, float or uint32, got {}", type.c_str()));
+    default: fail_file(name, fmt::format("channel type: expected 8 bit unsigned, 16 bit, half, float or uint32, got {}", type.c_str()));
   }
 }
 
@@ -91,7 +93,15 @@ Image decode_by_oiio(std::span<const std::byte> bytes, const std::string& name, 
   Image image(spec.width, spec.height, {type, spec.nchannels});
   const auto row_bytes = static_cast<OIIO::stride_t>(spec.width) * bytes_per_texel(image.format());
   // The file's first row is the top one: rows are read from our last one downwards.
-  if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(type), image.texel(0, spec.height - 1), OIIO::AutoStride, -row_bytes))
+  if (spec.format.basetype == OIIO::TypeDesc::INT16) {
+    // The numbers themselves, as heights are stored; OpenImageIO would make shares of 32767 of them.
+    const std::size_t row_values = static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.nchannels);
+    std::vector<std::int16_t> numbers(row_values * static_cast<std::size_t>(spec.height));
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::INT16, numbers.data())) fail_by_library("cannot decode");
+    for (int y = 0; y < spec.height; ++y)
+      std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(row_values * static_cast<std::size_t>(spec.height - 1 - y)), row_values,
+                  image.channels<float>(0, y));
+  } else if (!input->read_image(0, 0, 0, spec.nchannels, oiio_type(type), image.texel(0, spec.height - 1), OIIO::AutoStride, -row_bytes))
     fail_by_library("cannot decode");
   if (spec.nchannels == 2 && spec.alpha_channel == 1) return grey_alpha_expanded(image);
   return image;

@@ -16,8 +16,8 @@ namespace etalon::io {
 /// Reads an image. The content decides on the format, not the extension.
 /// Channels: grey stays one channel; grey with alpha becomes RGBA (r = g = b; our two-channel format is RG); palettes become RGB or RGBA;
 /// less than 8 bits become 8. TIFF with two channels of which none is alpha stays RG. Types: unorm8, unorm16, half, float32, uint32;
-/// a double TIFF is rounded to float32. OpenEXR: the channels R, RG, RGB, RGBA or Y (one channel); half, float or uint32, mixed half and
-/// float become float; others are for read_exr (exr_file.h). JPEG is decoded by the installed library: versions differ in last bits.
+/// a double TIFF is rounded to float32, one of signed 16 bits becomes float32, its numbers unchanged. OpenEXR: the channels R, RG, RGB, RGBA
+/// or Y (one channel); half, float or uint32, mixed half and float become float; others are for read_exr (exr_file.h). JPEG is decoded by the installed library: versions differ in last bits.
 /// InputError: missing, truncated, corrupt, another format, a side over 32768 (refused before decoding), other types or channel counts.
 [[nodiscard]] Image read_image(const std::filesystem::path& path);
 

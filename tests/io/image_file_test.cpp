@@ -45,6 +45,20 @@ TEST_CASE("image file: every format that a file type holds comes back bit by bit
   }
 }
 
+TEST_CASE("image file: a TIFF file of signed 16 bit, as heights come, is read as those numbers") {
+  const ScratchFolder folder;
+  const std::string path = (folder / "a.tif").string();
+  const std::vector<std::int16_t> numbers{-32768, -1, 0, 1, 4478, 32767};
+  const auto output = OIIO::ImageOutput::create("tiff");
+  REQUIRE(output->open(path, OIIO::ImageSpec(3, 2, 1, OIIO::TypeDesc::INT16)));
+  REQUIRE(output->write_image(OIIO::TypeDesc::INT16, numbers.data()));
+  REQUIRE(output->close());
+  const Image image = read_image(path);
+  REQUIRE(image.format() == kR32f);
+  for (int y = 0; y < 2; ++y)
+    for (int x = 0; x < 3; ++x) CHECK(image.channels<float>(x, y)[0] == numbers[static_cast<std::size_t>(3 * (1 - y) + x)]);
+}
+
 TEST_CASE("image file: no time of day in a TIFF file, so that an image has one file") {
   const ScratchFolder folder;
   write_image(folder / "a.tif", random_image(4, 4, kRgb8, 1));
@@ -151,7 +165,7 @@ TEST_CASE("image file: TIFF of too many channels or of signed integers is refuse
     return message.starts_with(path) ? message.substr(path.size()) : message;
   };
   CHECK(error(5, OIIO::TypeDesc::UINT8) == ": image channels: expected 1 to 4, got 5");
-  CHECK(error(1, OIIO::TypeDesc::INT16) == ": channel type: expected 8 or 16 bit, half, float or uint32, got int16");
+  CHECK(error(1, OIIO::TypeDesc::INT8) == ": channel type: expected 8 bit unsigned, 16 bit, half, float or uint32, got int8");
   CHECK(error(1, OIIO::TypeDesc::DOUBLE) == "no error");
 }
 
